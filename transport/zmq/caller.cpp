@@ -1,6 +1,6 @@
 #include "transport/zmq/caller.hpp"
 
-#include <zmq.h>
+#include <zmq.hpp>
 
 #include <algorithm>
 #include <cerrno>

@@ -1,9 +1,9 @@
 #include "transport/zmq/doorkeeper.hpp"
 
-#include <zmq.h>
 #include <algorithm>
 #include <cstring>
 #include <utility>
+#include <zmq.hpp>
 
 #include "core/base/error.hpp"
 #include "core/base/ip_address.hpp"
@@ -15,7 +15,8 @@ namespace {
 
 // DECISIONS: guarded-port
 constexpr const char* authentication = "inproc://zeromq.zap.01";  // the name is ZeroMQ's
-constexpr int enforce_domain = 93;  // ZMQ_ZAP_ENFORCE_DOMAIN: without a doorkeeper nobody gets in; not in all headers
+// ZMQ_ZAP_ENFORCE_DOMAIN: without a doorkeeper nobody gets in; not in all headers
+constexpr zmq::sockopt::integral_option<93, int, true> enforce_domain{};
 constexpr std::size_t for_own_work = 64, most_let_in = 4096, least_let_in = 8;
 
 // One of the old family comes in the new one's clothes at a port for both.
@@ -26,6 +27,14 @@ std::string usual_number(const std::string& text) {
 
 constexpr int watched = ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
                         ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
+
+// False: the library is too old to know it.
+bool enforces_domain(const Socket& door) try {
+    door.library().set(enforce_domain, true);
+    return true;
+} catch (const zmq::error_t&) {
+    return false;
+}
 
 }  // namespace
 
@@ -39,11 +48,9 @@ Doorkeeper::Doorkeeper(const SocketContext& context, std::optional<Keys> keys)
 }
 
 void Doorkeeper::guard(Socket& door) {
-    door.set(ZMQ_ZAP_DOMAIN, "lightnet");
-    const int on = 1;
-    // older libraries don't know it
-    const bool enforced = zmq_setsockopt(door.library(), enforce_domain, &on, sizeof on) == 0;
-    if (keys_ && !enforced) throw Error("this libzmq can't be trusted with keys: it lacks ZMQ_ZAP_ENFORCE_DOMAIN");
+    door.library().set(zmq::sockopt::zap_domain, "lightnet");
+    if (!enforces_domain(door) && keys_)
+        throw Error("this libzmq can't be trusted with keys: it lacks ZMQ_ZAP_ENFORCE_DOMAIN");
     if (keys_) door.answer_with(keys_->own);
     door.note_events(context_, watched);
     doors_.push_back(&door);

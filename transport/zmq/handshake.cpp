@@ -1,6 +1,6 @@
 #include "transport/zmq/handshake.hpp"
 
-#include <zmq.h>
+#include <zmq.hpp>
 
 namespace lightnet {
 

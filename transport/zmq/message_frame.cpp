@@ -1,11 +1,10 @@
 #include "transport/zmq/message_frame.hpp"
 
-#include <zmq.h>
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <new>
 #include <utility>
+#include <zmq.hpp>
 
 #include "core/base/ip_address.hpp"
 
@@ -17,7 +16,7 @@ extern "C" void __tsan_release(void*);
 namespace lightnet {
 namespace {
 
-static_assert(sizeof(zmq_msg_t) == 64 && alignof(zmq_msg_t) <= alignof(std::uint64_t),
+static_assert(sizeof(zmq::message_t) == 64 && alignof(zmq::message_t) <= alignof(std::uint64_t),
               "a MessageFrame has room for one");
 
 template <class T>
@@ -28,10 +27,15 @@ void free_owned(void*, void* owner) {
 
 // A frame of memory that `owner` owns, and that goes when the last who holds the frame lets go of it.
 template <class T>
-void own(zmq_msg_t* message, void* data, std::size_t size, std::unique_ptr<T> owner) {
-    if (zmq_msg_init_data(message, data, size, free_owned<T>, owner.get()) != 0) throw std::bad_alloc();
+void own(void* place, void* data, std::size_t size, std::unique_ptr<T> owner) try {
+    new (place) zmq::message_t(data, size, free_owned<T>, owner.get());
     (void)owner.release();
+} catch (const zmq::error_t&) {
+    throw std::bad_alloc();
 }
+
+// The library throws where there is none; that is usual, and asked for each message.
+const char* property(const zmq::message_t& message, const char* name) { return zmq_msg_gets(message.handle(), name); }
 
 }  // namespace
 
@@ -44,56 +48,62 @@ void happens_before_receiving() {}
 void happens_after_sending() {}
 #endif
 
-zmq_msg_t* MessageFrame::library() { return reinterpret_cast<zmq_msg_t*>(message_.data()); }
-const zmq_msg_t* MessageFrame::library() const { return reinterpret_cast<const zmq_msg_t*>(message_.data()); }
+zmq::message_t& MessageFrame::library() { return *std::launder(reinterpret_cast<zmq::message_t*>(message_.data())); }
+const zmq::message_t& MessageFrame::library() const {
+    return *std::launder(reinterpret_cast<const zmq::message_t*>(message_.data()));
+}
 
-MessageFrame::MessageFrame() noexcept { zmq_msg_init(library()); }
+MessageFrame::MessageFrame() noexcept { new (message_.data()) zmq::message_t(); }
 
-MessageFrame::MessageFrame(std::string_view bytes) {
-    if (zmq_msg_init_size(library(), bytes.size()) != 0) throw std::bad_alloc();
-    if (!bytes.empty()) std::memcpy(data(), bytes.data(), bytes.size());
+MessageFrame::MessageFrame(std::string_view bytes) try {
+    new (message_.data()) zmq::message_t(bytes.data(), bytes.size());
+} catch (const zmq::error_t&) {
+    throw std::bad_alloc();
 }
 
 MessageFrame::MessageFrame(std::vector<std::byte>&& bytes) {
     auto owner = std::make_unique<std::vector<std::byte>>(std::move(bytes));
     auto* const data = owner->data();
     const auto size = owner->size();
-    own(library(), data, size, std::move(owner));
+    own(message_.data(), data, size, std::move(owner));
 }
 
 MessageFrame::MessageFrame(Message&& message) {
     auto owner = std::make_unique<Message>(std::move(message));
     auto* const data = owner.get();
-    own(library(), data, sizeof(Message), std::move(owner));
+    own(message_.data(), data, sizeof(Message), std::move(owner));
 }
 
-MessageFrame::~MessageFrame() { zmq_msg_close(library()); }
+MessageFrame::~MessageFrame() { library().~message_t(); }
 
-MessageFrame::MessageFrame(MessageFrame&& other) noexcept : MessageFrame() { zmq_msg_move(library(), other.library()); }
+MessageFrame::MessageFrame(MessageFrame&& other) noexcept {
+    new (message_.data()) zmq::message_t(std::move(other.library()));
+}
 
+// What was here goes at once: it may be much, or hold up a thread that waits for its end.
 MessageFrame& MessageFrame::operator=(MessageFrame&& other) noexcept {
-    if (this != &other) zmq_msg_move(library(), other.library());
+    if (this != &other) library().move(other.library());
     return *this;
 }
 
 MessageFrame MessageFrame::shared() {
     MessageFrame other;
-    zmq_msg_copy(other.library(), library());
+    other.library().copy(library());
     return other;
 }
 
-std::size_t MessageFrame::size() const { return zmq_msg_size(library()); }
-void* MessageFrame::data() { return zmq_msg_data(library()); }
-const void* MessageFrame::data() const { return zmq_msg_data(const_cast<zmq_msg_t*>(library())); }
+std::size_t MessageFrame::size() const { return library().size(); }
+void* MessageFrame::data() { return library().data(); }
+const void* MessageFrame::data() const { return library().data(); }
 
 std::string MessageFrame::peer_address() const {
-    const char* address = zmq_msg_gets(library(), "Peer-Address");
+    const char* address = property(library(), "Peer-Address");
     const auto number = ip_address(address ? address : "");  // of the old family, at a port for both
     return number ? number->text() : address ? address : "";
 }
 
 std::string_view MessageFrame::peer_key() const {
-    const char* key = zmq_msg_gets(library(), "User-Id");
+    const char* key = property(library(), "User-Id");
     return key ? key : "";
 }
 

@@ -13,7 +13,9 @@
 #include "core/run/message/message.hpp"
 #include "transport/wire/packet.hpp"
 
-struct zmq_msg_t;
+namespace zmq {
+class message_t;
+}
 
 namespace lightnet {
 
@@ -41,11 +43,11 @@ public:
     /// The public key, as text, of whom it came from; empty: it came without.
     std::string_view peer_key() const;
     /// The library's own, for sockets.
-    zmq_msg_t* library();
+    zmq::message_t& library();
 
 private:
-    const zmq_msg_t* library() const;
-    alignas(std::uint64_t) std::array<std::byte, 64> message_;  // a zmq_msg_t
+    const zmq::message_t& library() const;
+    alignas(std::uint64_t) std::array<std::byte, 64> message_;  // a zmq::message_t
 };
 
 /// The frames of one message, route first.

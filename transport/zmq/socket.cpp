@@ -1,6 +1,5 @@
 #include "transport/zmq/socket.hpp"
 
-#include <zmq.h>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -8,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <utility>
+#include <zmq.hpp>
 
 #include "core/base/ip_address.hpp"
 #include "core/base/spare_threads.hpp"
@@ -26,18 +26,32 @@ constexpr int most_sockets = 65535;            // that it can have
 // that nobody looks after, and a line may be busy for a while.
 constexpr int heartbeat_ms = 500, heartbeat_timeout_ms = 3000, time_to_live_ms = 5000, handshake_ms = 4000;
 
+namespace option = zmq::sockopt;
+
+// What the library throws would be the only one of its types outside this room.
+template <class Work>
+auto in_our_words(const Work& work) try {
+    return work();
+} catch (const zmq::error_t& error) {
+    throw SocketError(error.num());
+}
+
+template <class Option, class Value>
+void set(const Socket& socket, Option name, const Value& value) {
+    in_our_words([&] { socket.library().set(name, value); });
+}
+
 void common_options(Socket& socket) {
-    socket.set(ZMQ_SNDHWM, high_water_mark);
-    socket.set(ZMQ_RCVHWM, high_water_mark);
-    const auto most = static_cast<std::int64_t>(packet::most_bytes);
-    if (zmq_setsockopt(socket.library(), ZMQ_MAXMSGSIZE, &most, sizeof most) != 0) throw SocketError();
-    socket.set(ZMQ_HANDSHAKE_IVL, handshake_ms);
+    set(socket, option::sndhwm, high_water_mark);
+    set(socket, option::rcvhwm, high_water_mark);
+    set(socket, option::maxmsgsize, static_cast<std::int64_t>(packet::most_bytes));
+    set(socket, option::handshake_ivl, handshake_ms);
 }
 
 void heartbeat_options(Socket& socket) {
-    socket.set(ZMQ_HEARTBEAT_IVL, heartbeat_ms);
-    socket.set(ZMQ_HEARTBEAT_TIMEOUT, heartbeat_timeout_ms);
-    socket.set(ZMQ_HEARTBEAT_TTL, time_to_live_ms);
+    set(socket, option::heartbeat_ivl, heartbeat_ms);
+    set(socket, option::heartbeat_timeout, heartbeat_timeout_ms);
+    set(socket, option::heartbeat_ttl, time_to_live_ms);
 }
 
 IpAddress number_in(const std::string& endpoint) {
@@ -65,7 +79,6 @@ ListeningPort open_port(const IpAddress& address, std::uint16_t port) {
 }  // namespace
 
 SocketError::SocketError(int number) : std::runtime_error(zmq_strerror(number)), number_(number) {}
-SocketError::SocketError() : SocketError(zmq_errno()) {}
 bool SocketError::out_of_descriptors() const { return number_ == EMFILE || number_ == ENFILE; }
 
 // DECISIONS: threads-are-tried
@@ -75,33 +88,28 @@ SocketContext::SocketContext(int io_threads, std::shared_ptr<const NameService> 
     : names_(std::make_unique<Resolver>(std::move(names))) {
     want_descriptors(descriptors_of_context, "a process with sockets");
     want_threads(static_cast<std::size_t>(io_threads) + threads_of_context, "a process with sockets");
-    context_ = zmq_ctx_new();
-    if (!context_) throw SocketError();
-    zmq_ctx_set(context_, ZMQ_IO_THREADS, io_threads);
-    zmq_ctx_set(context_, ZMQ_MAX_SOCKETS, most_sockets);
-    if (void* const first = zmq_socket(context_, ZMQ_PAIR)) zmq_close(first);
-}
-
-SocketContext::~SocketContext() {
-    while (zmq_ctx_term(context_) != 0 && zmq_errno() == EINTR) {
+    context_ = in_our_words([&] { return std::make_unique<zmq::context_t>(io_threads, most_sockets); });
+    try {
+        const zmq::socket_t first(*context_, zmq::socket_type::pair);
+    } catch (const zmq::error_t&) {  // who needs one is told so
     }
 }
 
-Socket::Socket(const SocketContext& context, int type) : socket_(zmq_socket(context.library(), type)) {
-    if (!socket_) throw SocketError();
-    set(ZMQ_LINGER, 0);
+SocketContext::~SocketContext() = default;
+
+Socket::Socket(const SocketContext& context, int type)
+    : socket_(in_our_words([&] { return std::make_unique<zmq::socket_t>(context.library(), type); })) {
+    set(*this, option::linger, 0);
 }
 
 // The library's own thread tells events, and waits for ever once nobody is there to take them: it must have stopped
 // telling before the taker goes, and a socket that is closed can't be told to stop.
 Socket::~Socket() {
-    if (events_) zmq_socket_monitor(socket_, nullptr, 0);
+    if (events_) zmq_socket_monitor(socket_->handle(), nullptr, 0);
     events_.reset();
-    if (socket_) zmq_close(socket_);
 }
 
-Socket::Socket(Socket&& other) noexcept
-    : socket_(std::exchange(other.socket_, nullptr)), quiet_(other.quiet_), events_(std::move(other.events_)) {}
+Socket::Socket(Socket&& other) noexcept = default;
 
 Socket& Socket::operator=(Socket&& other) noexcept {
     std::swap(socket_, other.socket_);
@@ -114,8 +122,8 @@ void Socket::note_events(const SocketContext& context, int kinds) {
     static std::atomic<unsigned> number{0};
     const auto endpoint = "inproc://socket-events-" + std::to_string(number++);
     auto events = std::make_unique<Socket>(context, ZMQ_PAIR);
-    events->set(ZMQ_RCVHWM, 0);  // who is slow to look must not hold up the library's thread
-    if (zmq_socket_monitor(socket_, endpoint.c_str(), kinds) != 0) throw SocketError();
+    set(*events, option::rcvhwm, 0);  // who is slow to look must not hold up the library's thread
+    if (zmq_socket_monitor(socket_->handle(), endpoint.c_str(), kinds) != 0) throw SocketError(zmq_errno());
     events_ = std::move(events);
     events_->connect(endpoint);
 }
@@ -141,41 +149,36 @@ void Socket::bind(const std::string& endpoint) {
         const auto port = tcp_endpoint(endpoint)->port;
         return bind(open_port(number, port == "*" ? 0 : port_number(port)), endpoint);
     }
-    if (zmq_bind(socket_, endpoint.c_str()) != 0) throw SocketError();
+    in_our_words([&] { socket_->bind(endpoint); });
 }
 
 // The library itself would look at all network cards first, and end the process where it may not.
 // DECISIONS: names-are-ours
 void Socket::bind(ListeningPort port, const std::string& endpoint) {
-    set(ZMQ_USE_FD, port.descriptor());
-    if (zmq_bind(socket_, endpoint.c_str()) != 0) throw SocketError();
+    set(*this, option::use_fd, port.descriptor());
+    in_our_words([&] { socket_->bind(endpoint); });
     port.give_away();
-    set(ZMQ_USE_FD, -1);
+    set(*this, option::use_fd, -1);
 }
 
 void Socket::connect(const std::string& endpoint) {
     quiet_ = false;
-    if (endpoint.starts_with("tcp://") && number_in(endpoint).six) set(ZMQ_IPV6, 1);
-    if (zmq_connect(socket_, endpoint.c_str()) != 0) throw SocketError();
+    if (endpoint.starts_with("tcp://") && number_in(endpoint).six) set(*this, option::ipv6, true);
+    in_our_words([&] { socket_->connect(endpoint); });
 }
 
 void Socket::unbind(const std::string& endpoint) noexcept {
     quiet_ = false;
-    zmq_unbind(socket_, endpoint.c_str());
+    zmq_unbind(socket_->handle(), endpoint.c_str());  // which it may not have been bound to
 }
 
 std::string Socket::endpoint() const {
-    std::array<char, 1024> text{};
-    std::size_t size = text.size();
-    if (zmq_getsockopt(socket_, ZMQ_LAST_ENDPOINT, text.data(), &size) != 0) throw SocketError();
-    return text.data();
+    return in_our_words([&] { return socket_->get(option::last_endpoint); });
 }
 
 // The library works off its descriptor here: from now on that tells nothing of what has come before.
 int Socket::happenings() const {
-    int events = 0;
-    std::size_t size = sizeof events;
-    if (zmq_getsockopt(socket_, ZMQ_EVENTS, &events, &size) != 0) throw SocketError();
+    const int events = in_our_words([&] { return socket_->get(option::events); });
     quiet_ = (events & ZMQ_POLLIN) == 0;
     return events;
 }
@@ -185,79 +188,65 @@ bool Socket::readable() const { return (happenings() & ZMQ_POLLIN) != 0; }
 bool Socket::can_send() const { return (happenings() & ZMQ_POLLOUT) != 0; }
 
 int Socket::descriptor() const {
-    int descriptor = 0;
-    std::size_t size = sizeof descriptor;
-    if (zmq_getsockopt(socket_, ZMQ_FD, &descriptor, &size) != 0) throw SocketError();
-    return descriptor;
-}
-
-void Socket::set(int option, int value) {
-    if (zmq_setsockopt(socket_, option, &value, sizeof value) != 0) throw SocketError();
-}
-
-void Socket::set(int option, const std::string& value) {
-    if (zmq_setsockopt(socket_, option, value.data(), value.size()) != 0) throw SocketError();
-}
-
-void Socket::set_bytes(int option, const std::array<unsigned char, PublicKey::size>& bytes) {
-    if (zmq_setsockopt(socket_, option, bytes.data(), bytes.size()) != 0) throw SocketError();
+    return in_our_words([&] { return socket_->get(option::fd); });
 }
 
 void Socket::call_with(const LineKeys& keys) {
-    set_bytes(ZMQ_CURVE_PUBLICKEY, keys.own.open.bytes);
-    set_bytes(ZMQ_CURVE_SECRETKEY, keys.own.secret);
-    set_bytes(ZMQ_CURVE_SERVERKEY, keys.theirs.bytes);
+    set(*this, option::curve_publickey, zmq::buffer(keys.own.open.bytes));
+    set(*this, option::curve_secretkey, zmq::buffer(keys.own.secret));
+    set(*this, option::curve_serverkey, zmq::buffer(keys.theirs.bytes));
 }
 
 void Socket::answer_with(const KeyPair& own) {
-    set(ZMQ_CURVE_SERVER, 1);
-    set_bytes(ZMQ_CURVE_SECRETKEY, own.secret);
+    set(*this, option::curve_server, true);
+    set(*this, option::curve_secretkey, zmq::buffer(own.secret));
 }
 
-SendResult Socket::try_send(Frames& frames) {
+SendResult Socket::try_send(Frames& frames) try {
     happens_before_receiving();
     quiet_ = false;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
-        if (zmq_msg_send(frames[i].library(), socket_, more | ZMQ_DONTWAIT) >= 0) continue;
-        const int error = zmq_errno();
+    for (auto& frame : frames) {
+        const auto more = &frame == &frames.back() ? zmq::send_flags::none : zmq::send_flags::sndmore;
         // only the first can be refused
-        if (error == EHOSTUNREACH) return SendResult::peer_is_gone;
-        if (error == EAGAIN || error == EINTR) return SendResult::line_is_full;
-        throw SocketError(error);
+        if (!socket_->send(frame.library(), more | zmq::send_flags::dontwait)) return SendResult::line_is_full;
     }
     return SendResult::sent;
+} catch (const zmq::error_t& error) {
+    if (error.num() == EHOSTUNREACH) return SendResult::peer_is_gone;
+    if (error.num() == EINTR) return SendResult::line_is_full;
+    throw SocketError(error.num());
 }
 
-std::optional<Frames> Socket::receive() {
+std::optional<Frames> Socket::receive() try {
     Frames frames;
     quiet_ = false;
     do {
         MessageFrame frame;
-        if (zmq_msg_recv(frame.library(), socket_, ZMQ_DONTWAIT) < 0) {
-            const int error = zmq_errno();
-            quiet_ = error == EAGAIN;
-            if (error == EAGAIN || error == EINTR || error == ETERM) return std::nullopt;
-            throw SocketError(error);
+        if (!socket_->recv(frame.library(), zmq::recv_flags::dontwait)) {
+            quiet_ = true;
+            return std::nullopt;
         }
         frames.push_back(std::move(frame));
-    } while (zmq_msg_more(frames.back().library()));
+    } while (frames.back().library().more());
     happens_after_sending();
     return frames;
+} catch (const zmq::error_t& error) {
+    if (error.num() == EINTR || error.num() == ETERM) return std::nullopt;
+    throw SocketError(error.num());
 }
 
 Socket answering_socket(const SocketContext& context) {
     Socket socket(context, ZMQ_ROUTER);
     common_options(socket);
-    socket.set(ZMQ_ROUTER_MANDATORY, 1);
+    set(socket, option::router_mandatory, true);
     return socket;
 }
 
 Socket door_socket(const SocketContext& context) {
     auto socket = answering_socket(context);
-    socket.set(ZMQ_PROBE_ROUTER, 1);
+    set(socket, option::probe_router, true);
     heartbeat_options(socket);
-    socket.set(ZMQ_TCP_KEEPALIVE, 1);
+    set(socket, option::tcp_keepalive, 1);
     return socket;
 }
 
@@ -265,9 +254,9 @@ Socket unconnected_asking_socket(const SocketContext& context, const std::string
                                  const std::optional<LineKeys>& keys) {
     Socket socket(context, ZMQ_DEALER);
     common_options(socket);
-    socket.set(ZMQ_IMMEDIATE, 1);
-    socket.set(ZMQ_RECONNECT_IVL, 50);
-    socket.set(ZMQ_RECONNECT_IVL_MAX, 1000);
+    set(socket, option::immediate, true);
+    set(socket, option::reconnect_ivl, 50);
+    set(socket, option::reconnect_ivl_max, 1000);
     if (!endpoint.starts_with("inproc://")) heartbeat_options(socket);  // a silent peer looks connected for ever
     if (keys) socket.call_with(*keys);
     return socket;

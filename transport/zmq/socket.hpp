@@ -1,7 +1,6 @@
 // Sockets as this project uses them: with the options that make them safe, and nothing else of the library.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -11,6 +10,11 @@
 #include "transport/address/resolver.hpp"
 #include "transport/keys/key.hpp"
 #include "transport/zmq/message_frame.hpp"
+
+namespace zmq {
+class context_t;
+class socket_t;
+}  // namespace zmq
 
 namespace lightnet {
 
@@ -24,8 +28,6 @@ class SocketError : public std::runtime_error {
 public:
     /// Of an error number of the library.
     explicit SocketError(int number);
-    /// The last one.
-    SocketError();
     /// The process, or the system, has no more descriptors.
     bool out_of_descriptors() const;
 
@@ -44,12 +46,12 @@ public:
     ~SocketContext();
     SocketContext(const SocketContext&) = delete;
     SocketContext& operator=(const SocketContext&) = delete;
-    void* library() const { return context_; }
+    zmq::context_t& library() const { return *context_; }
     Resolver& names() const { return *names_; }
 
 private:
-    void* context_;
     std::unique_ptr<Resolver> names_;
+    std::unique_ptr<zmq::context_t> context_;
 };
 
 /// What happened to a connection: a number of the library (ZMQ_EVENT_…) and a value.
@@ -91,9 +93,6 @@ public:
     int descriptor() const;
     /// A peer is there, and has room for more.
     bool can_send() const;
-    /// Options of the library, by its numbers.
-    void set(int option, int value);
-    void set(int option, const std::string& value);
     /// Encrypts what passes, and shows who we are, or asks who comes (CURVE, RFC 26). Before bind() and connect().
     void call_with(const LineKeys& keys);
     void answer_with(const KeyPair& own);
@@ -104,12 +103,12 @@ public:
     std::optional<SocketEvent> next_event();
     /// Is readable when there is one; null: none are noted.
     const Socket* events() const { return events_.get(); }
-    void* library() const { return socket_; }
+    /// The library's own, for options.
+    zmq::socket_t& library() const { return *socket_; }
 
 private:
     int happenings() const;
-    void set_bytes(int option, const std::array<unsigned char, PublicKey::size>& bytes);
-    void* socket_;
+    std::unique_ptr<zmq::socket_t> socket_;
     // Whatever is done with it, sending as well, the library may take note of what has come, and then its descriptor
     // tells nothing of that any more.
     mutable bool quiet_ = false;
