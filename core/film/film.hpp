@@ -83,6 +83,8 @@ struct FilmFormat {
     /// What one can look at while the picture grows: the colours of layers and of what is beside them, the first of
     /// ids for all of them, and alpha.
     std::vector<std::size_t> views() const;
+    /// It shows halves of the samples, by which a picture can be cleaned.
+    bool halves() const;
     /// Samples differ from cell to cell.
     bool adaptive() const { return refinement.error > 0; }
     /// Samples that every pixel gets.

@@ -1,6 +1,8 @@
 // Which colours a pixel of a film has.
+#include <algorithm>
 #include <numeric>
 
+#include "core/film/clean_layers.hpp"
 #include "core/film/film.hpp"
 
 namespace lightnet {
@@ -31,6 +33,10 @@ bool FilmFormat::is_light(std::size_t colour) const {
 
 bool FilmFormat::is_plain(std::size_t colour) const {
     return !(alpha && colour + 1 == colours()) && !ids.contains(name_of(colour));
+}
+
+bool FilmFormat::halves() const {
+    return std::any_of(shown.begin(), shown.end(), [](const auto& name) { return cleaning::is_half(name); });
 }
 
 std::vector<std::size_t> FilmFormat::views() const {

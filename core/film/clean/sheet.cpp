@@ -1,0 +1,60 @@
+#include "core/film/clean/sheet.hpp"
+
+#include <algorithm>
+
+#include "core/base/workshop.hpp"
+
+namespace lightnet::cleaning {
+namespace {
+
+constexpr std::size_t rows_of_piece = 32;
+
+}  // namespace
+
+void Sheet::extend(std::uint32_t width, std::uint32_t height) {
+    const std::size_t rows = values_.size() / stride_;
+    for (std::uint32_t y = 0; y < height; ++y) {
+        float* row = at(0, y) - margin;
+        std::fill(row, row + margin, row[margin]);
+        std::fill(row + margin + width, row + stride_, row[margin + width - 1]);
+    }
+    const float* first = at(0, 0) - margin;
+    const float* last = at(0, height - 1) - margin;
+    for (std::size_t y = 0; y < rows; ++y)
+        if (y < margin || y >= margin + height)
+            std::copy_n(y < margin ? first : last, stride_, values_.data() + y * stride_);
+}
+
+Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, std::uint32_t radius) {
+    Sheet across(width, height), both(width, height);
+    const auto r = static_cast<std::int64_t>(radius), w = std::int64_t{width}, h = std::int64_t{height};
+    // Each sum is made anew in the same order, so that a pixel knows nothing of where its row began.
+    in_pieces(
+        height,
+        [&](std::size_t first, std::size_t last) {
+            for (auto y = static_cast<std::int64_t>(first); y < static_cast<std::int64_t>(last); ++y)
+                for (std::int64_t x = 0; x < w; ++x) {
+                    const std::int64_t from = std::max<std::int64_t>(0, x - r), to = std::min(w - 1, x + r);
+                    float sum = 0;
+                    for (std::int64_t k = from; k <= to; ++k) sum += *sheet.at(k, y);
+                    *across.at(x, y) = sum / static_cast<float>(to - from + 1);
+                }
+        },
+        rows_of_piece);
+    in_pieces(
+        height,
+        [&](std::size_t first, std::size_t last) {
+            for (auto y = static_cast<std::int64_t>(first); y < static_cast<std::int64_t>(last); ++y) {
+                const std::int64_t from = std::max<std::int64_t>(0, y - r), to = std::min(h - 1, y + r);
+                float* sums = both.at(0, y);
+                for (std::int64_t k = from; k <= to; ++k)
+                    for (std::int64_t x = 0; x < w; ++x) sums[x] += *across.at(x, k);
+                for (std::int64_t x = 0; x < w; ++x) sums[x] /= static_cast<float>(to - from + 1);
+            }
+        },
+        rows_of_piece);
+    both.extend(width, height);
+    return both;
+}
+
+}  // namespace lightnet::cleaning

@@ -1,0 +1,60 @@
+// Numbers per pixel of a picture that is being cleaned, with a margin for those who look at neighbours.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lightnet::cleaning {
+
+/// What is worked on at once has this many pixels along a side. The outermost of them serve the others only.
+inline constexpr std::uint32_t area_side = 128;
+/// So many around each area are seen by its own, by the widest of the filters.
+inline constexpr std::uint32_t reach = 6;
+/// Neighbourhoods of 2 × 2 + 1 pixels along a side are compared with each other.
+inline constexpr std::uint32_t patch = 2;
+/// Estimates of the error are taken over so many pixels to each side, and choices smoothed over so many.
+inline constexpr std::uint32_t error_radius = 4, choice_radius = 2;
+/// Pixels of an area that serve the others, to each side; what is left of it.
+inline constexpr std::uint32_t rim = error_radius + choice_radius, core_side = area_side - 2 * rim;
+/// Around a picture, whose sides are taken up to whole cores.
+inline constexpr std::uint32_t margin = reach + patch + rim;
+
+/// Where an area begins, in pixels of the picture; may lie outside of it.
+struct Place {
+    std::int64_t x = 0, y = 0;
+};
+
+/// One number per pixel, row by row, and beyond the edges. A value.
+class Sheet {
+public:
+    Sheet() = default;
+    Sheet(std::uint32_t width, std::uint32_t height)
+        : stride_(up_to_cores(width) + 2 * margin), values_(stride_ * (up_to_cores(height) + 2 * margin)) {}
+
+    float* at(std::int64_t x, std::int64_t y) { return values_.data() + index(x, y); }
+    const float* at(std::int64_t x, std::int64_t y) const { return values_.data() + index(x, y); }
+    std::size_t stride() const { return stride_; }
+
+    /// Beyond the edges of a picture of that size, its outermost pixels go on.
+    void extend(std::uint32_t width, std::uint32_t height);
+
+private:
+    static std::size_t up_to_cores(std::uint32_t side) {
+        return (std::size_t{side} + core_side - 1) / core_side * core_side;
+    }
+    std::size_t index(std::int64_t x, std::int64_t y) const {
+        return static_cast<std::size_t>(y + margin) * stride_ + static_cast<std::size_t>(x + margin);
+    }
+
+    std::size_t stride_ = 0;
+    std::vector<float> values_;
+};
+
+using Colours = std::array<Sheet, 3>;
+
+/// The mean of each pixel's neighbours up to `radius` away, of those that are in the picture.
+Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, std::uint32_t radius);
+
+}  // namespace lightnet::cleaning
