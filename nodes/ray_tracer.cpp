@@ -77,6 +77,7 @@ public:
           seed_(here.seed()),
           max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
           alpha_(here.flag("alpha")),
+          halves_(here.inputs(), alpha_),
           background_(here.flag("background")),
           filter_(here.text("filter"), static_cast<float>(here.number("filter_radius"))) {}
 
@@ -87,6 +88,30 @@ public:
     }
 
 private:
+    // DECISIONS: halves-within-blocks
+    /// Of some colours, what the second half of a block's samples adds is kept beside the sum of all: each half is a
+    /// well spread set of samples by itself, as an aligned run of a sequence is. Of an odd number, half of the middle
+    /// one counts, so that about half of the light is in it whatever the number.
+    class Halves {
+    public:
+        Halves(const Inputs& inputs, bool alpha) : place_of_(inputs.layers(), none) {
+            const auto first = static_cast<std::uint32_t>(inputs.layers() - inputs.halved().size() - alpha);
+            for (std::uint32_t i = 0; i < inputs.halved().size(); ++i) place_of_[inputs.halved()[i]] = first + i;
+        }
+        /// How much of that sample of a block of so many is in its second half.
+        static float part(std::uint32_t sample, std::uint32_t samples) {
+            const std::uint32_t twice = 2 * (sample % samples_per_block) + 1;
+            return twice > samples ? 1 : twice == samples ? 0.5f : 0;
+        }
+        void add(std::span<Rgb> pixel, std::size_t layer, const Rgb& colour, float part) const {
+            if (part > 0 && place_of_[layer] != none) pixel[place_of_[layer]] += colour * part;
+        }
+
+    private:
+        static constexpr std::uint32_t none = ~0u;
+        std::vector<std::uint32_t> place_of_;
+    };
+
     /// A path that a sample has still to follow.
     struct Branch {
         SpecularPath path;
@@ -119,8 +144,8 @@ private:
         met.pixels.reserve(samples.size());
         met.weights.reserve(samples.size());
         for (std::size_t i = 0; i < samples.size(); ++i)
-            follow(samples[i], rays[i], hits[i], met, pixels.subspan(samples[i].pixel * inputs_.layers()));
-        if (!met.questions.empty()) add_answers(met, pixels);
+            follow(samples[i], rays[i], hits[i], met, pixels.subspan(samples[i].pixel * inputs_.layers()), tile);
+        if (!met.questions.empty()) add_answers(met, pixels, tile);
         if (!facts_.empty()) add_facts(samples, rays, hits, pixels);
         if (!alpha_) return;
         for (std::size_t i = 0; i < samples.size(); ++i)
@@ -164,7 +189,7 @@ private:
     /// At glass both branches are followed as long as they carry much: a lamp that is seen in it by chance is noise for
     /// long.
     void follow(const TileSample& sample, const Ray& ray, const std::optional<Hit>& hit, PixelQuestions& met,
-                std::span<Rgb> pixel) const {
+                std::span<Rgb> pixel, const Tile& tile) const {
         if (hit && only_scatters(*hit))
             return ask_about(sample, SpecularPath(ray), *hit, 0, 0, scene_.lobes(*hit), met);
         met.emitted.assign(scene_.groups(), Rgb{});
@@ -174,7 +199,11 @@ private:
             met.branches.pop_back();
             visit(sample, branch, surface, met);
         }
-        for (std::size_t g = 0; g < met.emitted.size(); ++g) pixel[g] += met.emitted[g];
+        const float part = Halves::part(sample.sample, tile.samples);
+        for (std::size_t g = 0; g < met.emitted.size(); ++g) {
+            pixel[g] += met.emitted[g];
+            halves_.add(pixel, g, met.emitted[g], part);
+        }
     }
 
     /// The surface of that number that a sample meets, and what shines by itself there.
@@ -227,11 +256,14 @@ private:
         met.weights.push_back(path.weight());
     }
 
-    void add_answers(const PixelQuestions& met, std::span<Rgb> pixels) const {
+    void add_answers(const PixelQuestions& met, std::span<Rgb> pixels, const Tile& tile) const {
         // The first input makes the image; those that are shown beside it are asked the same.
         for (const Part& part : ask_all(light_, met.questions))
             each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& colour) {
-                pixels[met.pixels[q] * inputs_.layers() + layer] += colour * met.weights[q];
+                const auto pixel = pixels.subspan(met.pixels[q] * inputs_.layers(), inputs_.layers());
+                const Rgb seen = colour * met.weights[q];
+                pixel[layer] += seen;
+                halves_.add(pixel, layer, seen, Halves::part(met.questions[q].sample, tile.samples));
             });
     }
 
@@ -272,7 +304,9 @@ private:
     Key key_;
     std::uint64_t seed_;
     std::uint32_t max_depth_;
-    bool alpha_, background_;
+    bool alpha_;
+    Halves halves_;
+    bool background_;
     PixelFilter filter_;
 };
 

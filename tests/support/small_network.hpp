@@ -75,15 +75,21 @@ public:
         return *this;
     }
 
+    /// Renders what pictures are cleaned by, too.
+    SmallNetwork& for_cleaning() {
+        for_cleaning_ = true;
+        return *this;
+    }
+
     /// The same of each layer, and of what is shown beside them, by name; of ids each rank, as "name 0".
     std::map<std::string, std::vector<Rgb>> pictures(std::uint32_t samples, std::uint64_t seed = 1) const {
         const Network network = assembled(seed);
         auto names = network.layers.film;
         const auto shown = shown_names(network.layers, network.graph);
         for (std::size_t i = 0; i < shown.size(); ++i) {
-            if (!network.layers.ids[i]) names.push_back(shown[i]);
-            for (std::uint32_t rank = 0; rank < network.layers.ids[i]; ++rank)
-                names.push_back(shown[i] + " " + std::to_string(rank));
+            const std::uint32_t ids = i < network.layers.ids.size() ? network.layers.ids[i] : 0;  // halves have none
+            if (!ids) names.push_back(shown[i]);
+            for (std::uint32_t rank = 0; rank < ids; ++rank) names.push_back(shown[i] + " " + std::to_string(rank));
         }
         if (network.layers.alpha) names.emplace_back("A");
         std::map<std::string, std::vector<Rgb>> all;
@@ -98,7 +104,7 @@ public:
 private:
     Network assembled(std::uint64_t seed) const {
         auto nodes = nodes_;
-        const Value film{Table{{Value{double(width_)}, Value{double(height_)}}, {}}};
+        const Value film{Table{{Value{double(width_)}, Value{double(height_)}}, {{"clean", Value{for_cleaning_}}}}};
         Params params{
             {"scene", Value{NodeRef{"scene"}}}, {"film", film}, {"show", Value{shown_}}, {"groups", Value{grouped_}}};
         params.insert(flags_.begin(), flags_.end());
@@ -136,6 +142,7 @@ private:
     std::string lit_by_;
     Table shown_;
     Params flags_;
+    bool for_cleaning_ = false;
     bool grouped_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include "core/base/problem_list.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/check_params.hpp"
+#include "core/network/graph/cleaning.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/network/graph/layout.hpp"
@@ -42,6 +43,7 @@ public:
         if (found_.problems.empty()) found_.problems = mistaken_groups(found_.graph, registry_);
         if (found_.problems.empty()) found_.problems = mistaken_layers(found_.graph, registry_);
         if (found_.problems.empty()) check_gains();
+        if (found_.problems.empty()) found_.problems = add_cleaning(found_.graph, registry_);
         return std::move(found_);
     }
 

@@ -240,11 +240,11 @@ private:
                 crop(entry, table->list);
             else if (name == "gains")
                 gains(entry);
-            else if (name == "half" || name == "compression")
+            else if (name == "half" || name == "clean" || name == "compression")
                 storage(name, entry);
             else if (name != "file")
                 complain_(in_quotes(param_.name) + " has an unknown entry " + in_quotes(name) +
-                          suggest(name, {"file", "crop", "gains", "half", "compression"}));
+                          suggest(name, {"file", "crop", "gains", "half", "compression", "clean"}));
             else if (!std::holds_alternative<std::string>(entry.data))
                 complain_("'file' of " + in_quotes(param_.name) + " must be a text, not " +
                           std::string(type_name(entry)));
@@ -252,9 +252,9 @@ private:
     }
 
     void storage(const std::string& name, const Value& value) const {
-        if (name == "half") {
+        if (name != "compression") {
             if (!std::holds_alternative<bool>(value.data))
-                complain_("'half' of " + in_quotes(param_.name) + " must be true or false, not " +
+                complain_(in_quotes(name) + " of " + in_quotes(param_.name) + " must be true or false, not " +
                           std::string(type_name(value)));
             return;
         }

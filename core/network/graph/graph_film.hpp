@@ -16,13 +16,14 @@
 namespace lightnet {
 
 /// `film = { width, height, crop = { x0, y0, x1, y1 }, gains = { direct = 0.5, bounce = { 1.2, 1.1, 1 } }, half =
-/// true, compression = "piz", file = "x.exr" }`
+/// true, compression = "piz", clean = true, file = "x.exr" }`
 struct GraphFilm {
     std::uint32_t width = 0, height = 0;  // pixels
     std::string file;                     // "" where the graph names none
     std::optional<Window> crop{};         // none: the whole image
     std::vector<Gain> gains{};            // of layers; those that are not named have 1
     PictureStorage storage{};             // of the file
+    bool clean = false;                   // the picture is cleaned, too, and has all that this needs
     friend bool operator==(const GraphFilm&, const GraphFilm&) = default;
 };
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/film/clean_layers.hpp"
+#include "core/network/graph/cleaning.hpp"
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/network/graph/path_layers.hpp"
 #include "core/network/graph/plan.hpp"
@@ -103,6 +105,15 @@ void add_shown(std::size_t node, const Graph& graph, const Registry& registry, L
                              : 0);
 }
 
+// Of all layers, and of what is shown for cleaning.
+void add_halves(const Graph& graph, Layers& layers) {
+    for (std::size_t layer = 0; layer < layers.film.size(); ++layer)
+        layers.halved.push_back(static_cast<std::uint32_t>(layer));
+    for (std::size_t i = 0; i < layers.shown.size(); ++i)
+        if (cleaning::is_for_cleaning(graph.nodes[layers.shown[i]].name))
+            layers.halved.push_back(static_cast<std::uint32_t>(first_colour(layers, i)));
+}
+
 }  // namespace
 
 std::size_t first_colour(const Layers& layers, std::size_t shown) {
@@ -111,7 +122,9 @@ std::size_t first_colour(const Layers& layers, std::size_t shown) {
     return colour;
 }
 
-std::size_t colours_of(const Layers& layers) { return first_colour(layers, layers.shown.size()) + layers.alpha; }
+std::size_t colours_of(const Layers& layers) {
+    return first_colour(layers, layers.shown.size()) + layers.halved.size() + layers.alpha;
+}
 
 Addition addition_of(const Layers& layers) {
     std::vector<IdColours> ids;
@@ -123,6 +136,14 @@ Addition addition_of(const Layers& layers) {
 std::vector<std::string> shown_names(const Layers& layers, const Graph& graph) {
     std::vector<std::string> names;
     for (const std::size_t node : layers.shown) names.push_back(graph.nodes[node].name);
+    for (const std::uint32_t colour : layers.halved) {
+        if (colour < layers.film.size()) {
+            names.push_back(cleaning::half_of(layers.film[colour]));
+            continue;
+        }
+        for (std::size_t i = 0; i < layers.shown.size(); ++i)
+            if (first_colour(layers, i) == colour) names.push_back(cleaning::half_of(names[i]));
+    }
     return names;
 }
 
@@ -177,6 +198,7 @@ Layers layers_of(const Graph& graph, const Registry& registry) {
         if (!is_there(layers.film, graph.nodes[shown].name) && !is_there(layers.shown, shown))
             add_shown(shown, graph, registry, layers);
     }
+    if (wants_cleaning(graph, registry)) add_halves(graph, layers);
     layers.alpha = says(graph.nodes[renderer], "alpha");
     // a node on no additive path answers with the light of all below it as its own
     for (std::size_t node = 0; node < graph.nodes.size(); ++node) {

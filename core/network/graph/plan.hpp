@@ -33,6 +33,8 @@ struct Layers {
                                            // layer that it is added to
     std::vector<std::size_t> shown;  // nodes whose images stand beside the sum, behind the layers of the film
     std::vector<std::uint32_t> ids;  // of each of those: how many ids a pixel keeps of it; 0: it is one colour
+    std::vector<std::uint32_t> halved;  // of which colours the second half of the samples is kept, too: see
+                                        // add_cleaning(). Those halves stand behind all that is shown
     bool alpha = false;              // the last colour says how much of a pixel surfaces cover
     std::vector<std::vector<Terminal>> of_node;  // per node: the terminals that its answers keep apart
     std::size_t emission = 1;                    // how many layers the renderer's own light has, the first ones
@@ -42,11 +44,12 @@ struct Layers {
 
 /// The first colour of an image beside the sum, by its number there; of the number behind the last: that of alpha.
 std::size_t first_colour(const Layers& layers, std::size_t shown);
-/// How many colours a pixel has: one per layer, one or as many as ids per image beside the sum, and one for alpha.
+/// How many colours a pixel has: one per layer, one or as many as ids per image beside the sum, one for each half, and
+/// one for alpha.
 std::size_t colours_of(const Layers& layers);
 /// How they are added up.
 Addition addition_of(const Layers& layers);
-/// The names of the images beside the sum.
+/// The names of the images beside the sum: of nodes, and then of halves.
 std::vector<std::string> shown_names(const Layers& layers, const Graph& graph);
 
 /// Layers of a checked graph. A linear node on an additive path from the renderer keeps its terminals apart; every

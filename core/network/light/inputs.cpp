@@ -37,7 +37,7 @@ Inputs Inputs::which(bool facts) const {
     std::vector<Input> some;
     for (const auto& input : inputs_)
         if (input.facts == facts) some.push_back(input);
-    return {std::move(some), layers_};
+    return {std::move(some), layers_, halved_};
 }
 
 Addition Inputs::addition() const {

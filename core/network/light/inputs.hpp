@@ -28,7 +28,8 @@ struct Input {
 class Inputs {
 public:
     Inputs() = default;
-    Inputs(std::vector<Input> inputs, std::size_t layers) : inputs_(std::move(inputs)), layers_(layers) {}
+    Inputs(std::vector<Input> inputs, std::size_t layers, std::vector<std::uint32_t> halved = {})
+        : inputs_(std::move(inputs)), layers_(layers), halved_(std::move(halved)) {}
 
     std::size_t size() const { return inputs_.size(); }
     bool empty() const { return inputs_.empty(); }
@@ -39,12 +40,16 @@ public:
     Inputs which(bool facts) const;
     /// How many colours an answer of the node itself has: one per layer of the image that it adds to.
     std::size_t layers() const { return layers_; }
+    /// Of a renderer: of which of those colours it keeps the second half of the samples, too. Those halves are its last
+    /// ones but alpha, in this order.
+    const std::vector<std::uint32_t>& halved() const { return halved_; }
     /// How such answers are added up, one for the other.
     Addition addition() const;
 
 private:
     std::vector<Input> inputs_;
     std::size_t layers_ = 1;
+    std::vector<std::uint32_t> halved_;
 };
 
 /// What one input answered: `input->width()` colours per question, next to each other.

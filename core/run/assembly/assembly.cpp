@@ -123,7 +123,7 @@ Inputs Assembly::inputs_of(std::size_t node) {
                               network_.kind_of(shown).light.facts,
                               network_.layers.ids[i]});
         }
-    return {std::move(inputs), network_.width_of(node)};
+    return {std::move(inputs), network_.width_of(node), image ? network_.layers.halved : std::vector<std::uint32_t>{}};
 }
 
 NodeServices Assembly::services_of(std::size_t node) {

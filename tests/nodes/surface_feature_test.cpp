@@ -1,0 +1,53 @@
+#include <gmock/gmock.h>
+
+#include "tests/support/small_network.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet::surface_feature_test {
+namespace {
+
+using namespace test;
+
+// A wall at z = 0, of that albedo, seen from 2 before it.
+SceneData wall(float albedo, float mirrored = 0) {
+    SceneData data;
+    add(data, quad({-100, -100, 0}, {200, 0, 0}, {0, 200, 0}),
+        mirrored > 0 ? mirror(data, mirrored) : diffuse(data, albedo));
+    data.camera = camera({0, 0, 2}, {0, 0, 0}, 60);
+    data.camera_given = true;
+    return data;
+}
+
+std::map<std::string, std::vector<Rgb>> features_of(SceneData data) {
+    SmallNetwork network(std::move(data), 4, 4);
+    std::vector<std::string> names;
+    for (const char* of : {"albedo", "normal", "depth"}) {
+        network.add(of, "SurfaceFeature", {}, {{"of", Value{std::string(of)}}});
+        names.emplace_back(of);
+    }
+    network.add("direct", "DirectLighting").lit_by("direct").show(names);
+    return network.pictures(4);
+}
+
+TEST(SurfaceFeature, TellsOfTheSurfaceThatIsSeen) {
+    const auto features = features_of(wall(0.25f));
+    EXPECT_NEAR(features.at("albedo")[5].g, 0.25f, 1e-5f);
+    EXPECT_NEAR(features.at("normal")[5].b, 1, 1e-5f);
+    EXPECT_GT(features.at("depth")[5].r, 2);
+}
+
+TEST(SurfaceFeature, TellsNothingOfMirrorsThatShowNothing) {
+    const auto features = features_of(wall(0, 0.5f));
+    for (const auto& [name, pixels] : features) EXPECT_EQ(pixels[5], Rgb{}) << name;
+}
+
+TEST(SurfaceFeature, TellsThroughMirrorsByWhatTheyReflect) {
+    SceneData data = wall(0, 0.5f);
+    add(data, quad({-100, -100, 4}, {0, 200, 0}, {200, 0, 0}), diffuse(data, 0.8f));  // behind the eye
+    const auto features = features_of(std::move(data));
+    EXPECT_NEAR(features.at("albedo")[5].g, 0.5f * 0.8f, 1e-3f);
+    EXPECT_NEAR(features.at("normal")[5].b, -0.5f, 1e-3f);
+}
+
+}  // namespace
+}  // namespace lightnet::surface_feature_test
