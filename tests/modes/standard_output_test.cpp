@@ -49,6 +49,7 @@ std::map<std::string, Words> printing(const test::Folder& folder, const std::str
     return {{"run", {}},
             {"render", {}},
             {"remix", {}},
+            {"clean", {}},
             {"bench-hosts", {}},
             {"scene", {"info", test::graph_file("cornell_box.pbrt")}},
             {"check", {graph}},

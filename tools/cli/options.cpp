@@ -237,6 +237,11 @@ void add_picture(CLI::App& verb, PictureOptions& picture) {
         });
 }
 
+void add_clean(CLI::App& verb, PictureOptions& picture) {
+    verb.add_flag("--clean", picture.clean,
+                  "write a picture without noise, too (x.clean.exr beside x.exr), as 'clean' of the graph's film does");
+}
+
 CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help) {
     const auto add = [&gains](const std::vector<std::string>& given) {
         for (const auto& one : given) gains.push_back(gain_of(one));
@@ -293,6 +298,7 @@ void add_running(CLI::App& verb, RunningOptions& running) {
     add_view(verb, running.view);
     verb.add_option("--camera", running.picture.camera, "one of several cameras of the scene's file")
         ->type_name("NAME|N");
+    add_clean(verb, running.picture);
     add_gains(verb, "--gain", running.picture.gains, "times which a layer is in the picture (may be repeated)");
     verb.add_option_function<std::string>(
             "--progress", [&running](const std::string& text) { running.progress = *progress_mode(text); },

@@ -45,6 +45,7 @@ struct PictureOptions {
     std::optional<double> exposure;  // stops
     std::string camera;              // of the scene's file, name or number; "": as the graph says
     std::vector<Gain> gains;         // of layers
+    bool clean = false;              // it is cleaned, whatever the graph says
     std::string output;              // file; "": as the graph says
 };
 
@@ -85,6 +86,8 @@ void add_graph(CLI::App& verb, GraphOptions& graph);
 void add_constants(CLI::App& verb, std::map<std::string, std::string>& constants, const char* help);
 /// --samples, --size and --crop.
 void add_picture(CLI::App& verb, PictureOptions& picture);
+/// --clean
+void add_clean(CLI::App& verb, PictureOptions& picture);
 /// An option, or where `name` has no dashes the words of the command line, that gives layers gains.
 CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help);
 /// --view

@@ -28,6 +28,10 @@ void set_gains(Value& film, const std::vector<Gain>& gains) {
         entry->named[layer] = {Table{{{double(value.r)}, {double(value.g)}, {double(value.b)}}, {}}};
 }
 
+void set_clean(Value& film, bool clean) {
+    if (auto* table = std::get_if<Table>(&film.data); table && clean) table->named["clean"] = {true};
+}
+
 void change_scene(Node& scene, const Kind& kind, const PictureOptions& wanted) {
     for (const auto& param : kind.params) {
         if (wanted.exposure && param.name == "exposure") scene.params[param.name] = {*wanted.exposure};
@@ -45,11 +49,13 @@ void override_picture(Graph& graph, const Registry& registry, const PictureOptio
         for (const auto& param : kind->params) {
             if (wanted.samples && param.name == "samples")
                 node.params[param.name] = {static_cast<double>(*wanted.samples)};
-            if (param.type != ParamType::film || !(wanted.size || wanted.crop || !wanted.gains.empty())) continue;
+            const bool changes = wanted.size || wanted.crop || !wanted.gains.empty() || wanted.clean;
+            if (param.type != ParamType::film || !changes) continue;
             Value& film = node.params.try_emplace(param.name, Value{Table{}}).first->second;
             if (wanted.size) set_size(film, *wanted.size);
             if (wanted.crop) set_crop(film, *wanted.crop);
             set_gains(film, wanted.gains);
+            set_clean(film, wanted.clean);
         }
     }
 }

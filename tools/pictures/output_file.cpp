@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "core/base/own_files.hpp"
 #include "core/film/checkpoint.hpp"
@@ -43,6 +44,14 @@ void check_output(const std::string& output) {
     check(report_beside(output), report_beginning);
     check(failed_report_beside(output), report_beginning);
     check(checkpoint_beside(output), checkpoint_beginning);
+    if (!problems.empty()) throw UserError(problems);
+}
+
+void check_picture(const std::string& exr) {
+    std::vector<Problem> problems;
+    for (const auto& [file, beginning] :
+         {std::pair<fs::path, std::string_view>{exr, exr_beginning}, {png_beside(exr), png_beginning}})
+        if (const auto why = why_not_replaced(file, beginning); !why.empty()) problems.push_back({{file, 0}, why});
     if (!problems.empty()) throw UserError(problems);
 }
 

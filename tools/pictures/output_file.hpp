@@ -17,6 +17,8 @@ inline constexpr std::string_view report_page_beginning = "<!doctype html>\n<!--
 /// Throws UserError when no picture can be written there, or files of others stand where it and what comes with it
 /// would: said before work starts, not after hours of it.
 void check_output(const std::string& output);
+/// Likewise for one of the pictures that come with it, and its PNG.
+void check_picture(const std::string& exr);
 
 /// Throws UserError when no page of a report can be written there.
 void check_report(const std::string& html);

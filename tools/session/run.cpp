@@ -13,6 +13,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/run/assembly/load_scene.hpp"
+#include "tools/pictures/clean.hpp"
 #include "tools/pictures/output_file.hpp"
 #include "tools/pictures/picture_lock.hpp"
 #include "tools/pictures/picture_recipe.hpp"
@@ -160,6 +161,7 @@ void Run::open_to_watchers() {
 
 int Run::perform() {
     check_output(request_.output);
+    if (format_.halves()) check_picture(clean_beside(request_.output));
     if (!request_.trace.empty())
         if (const auto why = why_not_replaced(request_.trace, trace_beginning); !why.empty())
             throw UserError({request_.trace, 0}, why);

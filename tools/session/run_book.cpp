@@ -13,10 +13,12 @@
 #include "core/base/own_process.hpp"
 #include "core/base/plain_file.hpp"
 #include "core/base/this_machine.hpp"
+#include "core/film/clean/clean.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/run/message/message.hpp"
+#include "tools/pictures/clean.hpp"
 #include "tools/session/run_figures.hpp"
 #include "tools/session/run_trace.hpp"
 #include "tools/support/log_line.hpp"
@@ -207,6 +209,20 @@ void RunBook::write_files(const std::string& exr) {
     report_.settings["tone of the PNG"] = tone_of(view);
 }
 
+// Beside the noisy one, which stays.
+void RunBook::write_clean(const std::string& exr) {
+    const auto begun = Clock::now();
+    const auto file = clean_beside(exr);
+    expect_ours(file, exr_beginning);
+    expect_ours(png_beside(file), png_beginning);
+    const Cleaned cleaned = clean(picture_now());
+    for (const auto& lack : cleaned.lacks) alert(file + " could be better: " + lack);
+    write_exr(file, cleaned.picture);
+    write_png(png_beside(file), cleaned.picture, png_view(view_, brightness_, exposed_));
+    report_.outputs.insert(report_.outputs.end(), {file, png_beside(file).string()});
+    report_.settings["clean"] = fmt::format("{:.2f} s", std::chrono::duration<double>(Clock::now() - begun).count());
+}
+
 void RunBook::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
                               std::chrono::seconds period) {
     checkpoint_.emplace(steps_.film(), exr, std::move(recipe), period);
@@ -308,6 +324,7 @@ void RunBook::use(const Plan& plan, const Graph& graph) {
 
 void RunBook::write_picture(const std::string& exr) {
     write_files(exr);
+    if (film().format().halves()) write_clean(exr);
     previewed_ = false;
     const Film& film = steps_.picture();
     if (film.format().adaptive() || !film.complete())

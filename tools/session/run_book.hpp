@@ -154,6 +154,7 @@ private:
     };
     Picture picture_now() const;
     void write_files(const std::string& exr);
+    void write_clean(const std::string& exr);
     std::string write_preview();
     void write_trace();
     std::filesystem::path report_file(const std::string& exr, const std::string& outcome) const;
