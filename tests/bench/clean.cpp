@@ -1,0 +1,156 @@
+// What cleaning brings: pictures of scenes with references by path tracing, noisy and cleaned, at several numbers of
+// samples and with three seeds. Errors are relative squares (compare.hpp) less the reference's own noise, and FLIP.
+// Arguments: names of scenes; without any, all of them. LIGHTNET_BENCH_SAMPLES: "4,32" instead of 4, 16, 32 and 128.
+// A row ends in what path tracing alone would have to spend for the cleaned error, as that falls like 1 / samples.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/film/clean/clean.hpp"
+#include "core/film/compare.hpp"
+#include "core/film/exr.hpp"
+#include "core/film/flip.hpp"
+#include "tests/bench/figure.hpp"
+#include "tests/bench/scene_files.hpp"
+#include "tests/support/folder.hpp"
+#include "transport/start/child.hpp"
+
+namespace lightnet::bench {
+namespace {
+
+const int seeds = repeated(3);
+constexpr int judged = 32;        // samples, at which goals are stated
+constexpr double times_less = 6;  // the relative square error of the median scene: by so much, at least
+constexpr double most_shift = 3e-3;
+
+std::vector<int> sample_counts() {
+    if (smoke()) return {4};
+    const char* given = std::getenv("LIGHTNET_BENCH_SAMPLES");
+    std::istringstream text(given ? given : "4,16,32,128");
+    std::vector<int> counts;
+    for (std::string one; std::getline(text, one, ',');) counts.push_back(std::stoi(one));
+    return counts;
+}
+
+/// How far a picture is from the reference.
+struct Errors {
+    double square = 0, flip = 0, shift = 0, blocks = 0;
+};
+
+Errors errors_of(const Picture& reference, const Picture& picture, double noise) {
+    const Difference found = compare(reference, picture);
+    const double shift = std::max(
+        {std::abs(found.mean_ratio.r - 1), std::abs(found.mean_ratio.g - 1), std::abs(found.mean_ratio.b - 1)});
+    return {std::max(1e-7, found.relative_square - noise), flip(reference.width, reference.beauty, picture.beauty).mean,
+            shift, found.block_difference};
+}
+
+/// One number of samples of one scene, by seed.
+struct Row {
+    std::vector<double> noisy, cleaned, noisy_flip, cleaned_flip, noisy_shift, cleaned_shift, seconds, expected;
+    void add(const Errors& before, const Errors& after) {
+        noisy.push_back(before.square), cleaned.push_back(after.square);
+        noisy_flip.push_back(before.flip), cleaned_flip.push_back(after.flip);
+        noisy_shift.push_back(before.shift), cleaned_shift.push_back(after.shift);
+    }
+    double times() const {
+        std::vector<double> all;
+        for (std::size_t i = 0; i < noisy.size(); ++i) all.push_back(noisy[i] / cleaned[i]);
+        return median(all);
+    }
+};
+
+// The expected error of a cleaned picture, in parts of the one that it has.
+double told_by(const Picture& cleaned, double square) {
+    double sum = 0;
+    for (const auto& pixel : cleaned.shown.back().pixels) sum += double{pixel.r} * pixel.r;
+    return std::sqrt(sum / double(cleaned.beauty.size()) / square);
+}
+
+Picture rendered(const SceneFiles& files, const Picture& reference, int samples, int seed) {
+    const test::Folder folder;
+    const auto side = [](std::uint32_t pixels) { return std::to_string(sized(pixels, pixels / 8)); };
+    const auto out = folder / "x.exr";
+    const auto output =
+        run_program({LIGHTNET_STARTS_LIGHTNET, "render", files.main().string(), "--clean", "--samples",
+                     std::to_string(samples), "--size", side(reference.width) + "x" + side(reference.height), "--seed",
+                     std::to_string(seed), "--forget", "--progress", "none", "-o", out},
+                    "", std::chrono::minutes(30));
+    if (output.code != 0) throw std::runtime_error("lightnet ended badly: " + output.text);
+    return read_exr(out);
+}
+
+Row measured(const ReferenceScene& scene, const SceneFiles& files, const Picture& reference, int samples) {
+    Row row;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const Picture noisy = rendered(files, reference, samples, seed);
+        Cleaned cleaned;
+        const double cpu = process_seconds();
+        cleaned = clean(noisy);
+        row.seconds.push_back((process_seconds() - cpu) / double(noisy.beauty.size()) * 1e6);
+        if (smoke()) continue;
+        const Errors after = errors_of(reference, cleaned.picture, scene.noise);
+        row.add(errors_of(reference, noisy, scene.noise), after);
+        row.expected.push_back(told_by(cleaned.picture, after.square));
+    }
+    return row;
+}
+
+/// For the judgement over all scenes.
+struct Judged {
+    std::vector<double> times, flips, shifts;
+};
+
+void measure(const ReferenceScene& scene, Judged& all) {
+    const SceneFiles files(scene);
+    if (files.missing()) return not_run("clean." + scene.name, *files.missing());
+    const Picture reference = read_exr(files.reference());
+    for (const int samples : sample_counts()) {
+        const Row row = measured(scene, files, reference, samples);
+        if (smoke()) {
+            std::printf("clean.%s ran\n", scene.name.c_str());
+            continue;
+        }
+        std::printf(
+            "  %s, %d samples: error %.2e to %.2e, %.1f x less (as %.0f samples); FLIP %.4f to %.4f; mean off by "
+            "%.2f %% to %.2f %%; tells %.2f of its error; %.1f s of a core per Mpixel\n",
+            scene.name.c_str(), samples, median(row.noisy), median(row.cleaned), row.times(), samples * row.times(),
+            median(row.noisy_flip), median(row.cleaned_flip), 100 * median(row.noisy_shift),
+            100 * median(row.cleaned_shift), median(row.expected), median(row.seconds));
+        std::fflush(stdout);
+        if (samples != judged) continue;
+        all.times.push_back(row.times());
+        all.flips.push_back(median(row.cleaned_flip) / median(row.noisy_flip));
+        all.shifts.push_back(std::max(0.0, median(row.cleaned_shift) - median(row.noisy_shift)));
+    }
+}
+
+void judge(const Judged& all) {
+    if (smoke() || all.times.empty()) return;
+    quantity("clean.times_less", all.times, "relative square error at 32 samples, by scene", times_less, true);
+    quantity("clean.worst_scene", {*std::min_element(all.times.begin(), all.times.end())}, "times less", 1 / 1.05,
+             true);
+    quantity("clean.worst_flip", {*std::max_element(all.flips.begin(), all.flips.end())}, "of the noisy picture's", 1,
+             false);
+    figure("clean.mean_shift", {*std::max_element(all.shifts.begin(), all.shifts.end())}, most_shift, false);
+}
+
+void measure_all(const std::vector<std::string>& names) {
+    Judged all;
+    for (const ReferenceScene& scene : reference_scenes())
+        if (names.empty() || std::find(names.begin(), names.end(), scene.name) != names.end()) measure(scene, all);
+    judge(all);
+}
+
+}  // namespace
+}  // namespace lightnet::bench
+
+int main(int count, char** words) {
+    return lightnet::bench::run("clean", [&] { lightnet::bench::measure_all({words + 1, words + count}); });
+}
