@@ -247,7 +247,9 @@ protected:
     void judge(const Folder& folder, int code, const std::string& said) const {
         const auto story = told_ + "\nended with " + std::to_string(code) + "\n" + said;
         const auto out = picture_in(folder);
-        if (launcher_killed_) {
+        if (code == 2) {
+            EXPECT_NE(said.find("there is no folder"), std::string::npos) << "it was taken at the beginning: " << story;
+        } else if (launcher_killed_) {
             EXPECT_THAT(code, testing::AnyOf(0, 128 + SIGKILL, 1, 130)) << story;
         } else if (interrupted_ && said.empty()) {
             // It was told before it could listen: then the system ends it, and nothing has begun.
