@@ -50,7 +50,7 @@ void change_camera(SceneData& scene, const CameraOverride& change, const SourceL
         look(camera, change, scene.camera_given, where);
         scene.camera_given = true;
     }
-    if (change.fov) camera.fov = *change.fov, camera.orthographic = false, camera.panorama = CameraData::Panorama::none;
+    if (change.fov) camera.fov = *change.fov, camera.projection = Perspective{};
     if (change.lens) camera.lens_radius = *change.lens;
     if (change.focus) camera.focus_distance = *change.focus;
     if (!scene.camera_given) return;

@@ -1,4 +1,4 @@
-// What a graph may change about a scene after it has been read.
+// Changes that a graph may make to a scene after it has been read.
 #pragma once
 
 #include <optional>

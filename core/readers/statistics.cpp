@@ -4,38 +4,15 @@
 #include <array>
 #include <set>
 
+#include "core/base/math/moved_box.hpp"
 #include "core/scene/data/contents.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
 
 namespace lightnet {
 namespace {
 
-/// Adds what is in a box, once it is moved.
-void add_moved(Box& to, const Box& box, const Matrix& by) {
-    if (box.empty()) return;
-    for (int corner = 0; corner < 8; ++corner)
-        to.add(transform_point(by, {corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                                    corner & 4 ? box.high.z : box.low.z}));
-}
-
-template <class Element>
-std::uint64_t size_in_memory(const std::vector<Element>& elements) {
-    return elements.size() * sizeof(Element);
-}
-
-void add_shape(Box& box, const Shape& shape) {
-    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-        for (const Vec3& p : mesh->positions) box.add(p);
-        return;
-    }
-    if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
-        const Box own = PlacedQuadric(*quadric).bounds();
-        box.add(own.low), box.add(own.high);
-        return;
-    }
-    const auto& ball = std::get<Sphere>(shape.geometry);
-    const Vec3 r{ball.radius, ball.radius, ball.radius};
-    box.add(ball.center - r), box.add(ball.center + r);
+template <class... Shapes>
+std::vector<std::pair<const char*, std::size_t>> none_of_each(const std::variant<Shapes...>*) {
+    return {{Shapes::names, 0}...};
 }
 
 const char* name_of(const Material& material) {
@@ -44,22 +21,13 @@ const char* name_of(const Material& material) {
 
 void count_shapes(const SceneData& scene, SceneStatistics& found) {
     std::set<MaterialId> used;
+    found.shapes = none_of_each(static_cast<const ShapeGeometry*>(nullptr));
     for (const Shape& shape : scene.shapes) {
         used.insert(shape.material);
         if (shape.emission) ++found.lights["shapes that emit"];
-        if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-            ++found.meshes;
-            found.triangles += mesh->triangles.size();
-            found.geometry_bytes += size_in_memory(mesh->positions) + size_in_memory(mesh->normals) +
-                                    size_in_memory(mesh->uvs) + size_in_memory(mesh->colours) +
-                                    size_in_memory(mesh->triangles);
-        } else if (std::holds_alternative<Quadric>(shape.geometry)) {
-            ++found.quadrics;
-            found.geometry_bytes += sizeof(Quadric);
-        } else {
-            ++found.spheres;
-            found.geometry_bytes += sizeof(Sphere);
-        }
+        ++found.shapes[shape.geometry.index()].second;
+        found.triangles += triangles_of(shape);
+        found.geometry_bytes += memory_of(shape.geometry);
     }
     for (const MaterialId id : used) ++found.materials[name_of(scene.materials[id])];
 }
@@ -71,13 +39,13 @@ void measure(const SceneData& scene, SceneStatistics& found) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
         for (const auto shape : scene.objects[i].shapes) {
             inside[shape] = true;
-            add_shape(boxes[i], scene.shapes[shape]);
+            add_to(boxes[i], scene.shapes[shape].geometry, {});
             triangles[i] += triangles_of(scene.shapes[shape]);
         }
     Box world;
     for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
         if (inside[i]) continue;
-        add_shape(world, scene.shapes[i]);
+        add_to(world, scene.shapes[i].geometry, {});
         found.instanced_triangles += triangles_of(scene.shapes[i]);
     }
     for (const auto& instance : scene.instances) {

@@ -10,9 +10,8 @@
 
 #include "core/base/math/box.hpp"
 #include "core/base/math/transform.hpp"
-#include "core/scene/camera.hpp"
+#include "core/scene/camera/camera.hpp"
 #include "core/scene/data/contents.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
 
 namespace lightnet {
 namespace {
@@ -20,22 +19,6 @@ namespace {
 bool can_be_seen(const SceneData& scene, const Shape& shape) {
     return shape.material < scene.materials.size() &&
            !std::holds_alternative<NoMaterial>(scene.materials[shape.material].model);
-}
-
-void add_to(Box& box, const Shape& shape, const Matrix& to_world) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
-        for (const float side : {-1.0f, 1.0f})
-            box.add(transform_point(to_world, sphere->center + Vec3{1, 1, 1} * (side * sphere->radius)));
-        return;
-    }
-    if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
-        const Box own = PlacedQuadric(*quadric).bounds();
-        for (int corner = 0; corner < 8; ++corner)
-            box.add(transform_point(to_world, {corner & 1 ? own.high.x : own.low.x, corner & 2 ? own.high.y : own.low.y,
-                                               corner & 4 ? own.high.z : own.low.z}));
-        return;
-    }
-    for (const Vec3 vertex : std::get<Mesh>(shape.geometry).positions) box.add(transform_point(to_world, vertex));
 }
 
 /// with(shape, to_world) of all that can be seen, once for each instance.
@@ -54,7 +37,7 @@ void each_placed(const SceneData& scene, const With& with) {
 // Around all that can be seen; a unit cube where there is nothing.
 Box box_of(const SceneData& scene) {
     Box box;
-    each_placed(scene, [&](const Shape& shape, const Matrix& to_world) { add_to(box, shape, to_world); });
+    each_placed(scene, [&](const Shape& shape, const Matrix& to_world) { add_to(box, shape.geometry, to_world); });
     const bool usable = finite(box.low) && finite(box.high) && length(box.size()) > 0;
     return usable ? box : Box{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}};
 }

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/shapes/ray.hpp"
 
 namespace lightnet {
 

@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <variant>
 
-#include "core/base/math/box.hpp"
-#include "core/scene/camera.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/camera/camera.hpp"
 #include "core/scene/surfaces/placement.hpp"
 
 namespace lightnet {
@@ -22,40 +19,6 @@ std::string too_far(const char* what) {
 // Can Embree meet triangles of that size with rays that begin as far away? It works with the product of three
 // distances in single precision, and where that is no number finds nothing.
 bool is_meetable(double size, double reach) { return size * size * reach <= 8e36; }
-
-// The longest side of the box around it, which no edge is much longer than.
-double size_of(const ShapeGeometry& geometry) {
-    const auto* mesh = std::get_if<Mesh>(&geometry);
-    if (!mesh) return 0;
-    Box box;
-    for (const Vec3 p : mesh->positions) box.add(p);
-    const Vec3 side = mesh->positions.empty() ? Vec3{} : box.size();
-    return std::max({side.x, side.y, side.z});
-}
-
-// The largest coordinate; not finite where one of them isn't.
-float extent_of(Vec3 p) { return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z); }
-
-float extent_of(const Mesh& mesh) {
-    bool all = true;
-    float most = 0;
-    for (const Vec3 p : mesh.positions) {
-        const float x = std::fabs(p.x), y = std::fabs(p.y), z = std::fabs(p.z);
-        all &= (x <= farthest) & (y <= farthest) & (z <= farthest);
-        most = std::max(most, std::max(x, std::max(y, z)));
-    }
-    return all ? most : std::numeric_limits<float>::infinity();
-}
-
-float extent_of(const Box& box) { return std::max(extent_of(box.low), extent_of(box.high)); }
-
-float extent_of(const Sphere& sphere) { return extent_of(sphere.center) + std::fabs(sphere.radius); }
-
-float extent_of(const Quadric& quadric) { return extent_of(PlacedQuadric(quadric).bounds()); }
-
-const char* what_of(const ShapeGeometry& geometry) {
-    return std::holds_alternative<Mesh>(geometry) ? "a vertex" : "a part of it";
-}
 
 // Where a question for a place finds one: of the first shape, as instances are too many to have lines.
 SourceLine place_of(const SceneData& scene, const Object& object, const std::string& file) {
@@ -101,13 +64,20 @@ public:
 private:
     void look_at(std::size_t s) {
         const Shape& shape = scene_.shapes[s];
-        of_shape_[s] = std::visit([](const auto& geometry) { return extent_of(geometry); }, shape.geometry);
+        std::visit([&](const auto& geometry) { look_at(s, shape, geometry); }, shape.geometry);
+    }
+    template <IsShape S>
+    void look_at(std::size_t s, const Shape& shape, const S& geometry) {
+        of_shape_[s] = geometry.extent();
         if (!in_reach(of_shape_[s]) && problems_.size() < most_problems)
-            problems_.push_back({shape.where, too_far(what_of(shape.geometry))});
+            problems_.push_back({shape.where, too_far(S::part)});
+    }
+    static float largest_piece(const Shape& shape) {
+        return std::visit([](const auto& geometry) { return geometry.largest_piece(); }, shape.geometry);
     }
     // `extent`: of the shape, which is cheaper to know than its size and nearly always small enough.
     void check_size(const Shape& shape, double extent, double reach) {
-        if (is_meetable(2 * extent, reach) || is_meetable(size_of(shape.geometry), reach)) return;
+        if (is_meetable(2 * extent, reach) || is_meetable(largest_piece(shape), reach)) return;
         problems_.push_back({shape.where, fmt::format("its triangles are so large that no ray from {:.0e} units away, "
                                                       "where the scene ends, can meet them: scale the scene down",
                                                       reach)});

@@ -1,4 +1,4 @@
-// How far away things may stand.
+// The distance up to which things may stand.
 #pragma once
 
 #include <cmath>

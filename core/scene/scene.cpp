@@ -6,7 +6,6 @@
 #include "core/scene/lamps/lights.hpp"
 #include "core/scene/ray_witness.hpp"
 #include "core/scene/scene_size.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
 #include "core/scene/surfaces/shading.hpp"
 
 #include <algorithm>
@@ -18,18 +17,7 @@
 namespace lightnet {
 namespace {
 
-Error wrong(const Shape& shape, const char* what) { return Error("scene", to_string({shape.where, what})); }
-
-void check_mesh(const Shape& shape, const Mesh& mesh) {
-    const std::size_t vertices = mesh.positions.size();
-    std::uint32_t last = 0;
-    for (const auto& [a, b, c] : mesh.triangles) last = std::max({last, a, b, c});
-    if (!mesh.triangles.empty() && last >= vertices) throw wrong(shape, "a triangle names a vertex that isn't there");
-    const auto fits = [&](std::size_t count) { return count == 0 || count == vertices; };
-    if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.second_uvs.size()) ||
-        !fits(mesh.colours.size()))
-        throw wrong(shape, "normals, texture coordinates or colours don't match the vertices");
-}
+Error wrong(const Shape& shape, const std::string& what) { return Error("scene", to_string({shape.where, what})); }
 
 void check_objects(const SceneData& data) {
     for (const auto& object : data.objects)
@@ -47,9 +35,8 @@ SceneData checked(SceneData data) {
         if (shape.material >= data.materials.size()) throw wrong(shape, "names a material that isn't there");
         if (shape.emission && shape.emission->texture && *shape.emission->texture >= data.textures.size())
             throw wrong(shape, "emits by a texture that isn't there");
-        if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) check_mesh(shape, *mesh);
-        if (const auto* quadric = std::get_if<Quadric>(&shape.geometry); quadric && !PlacedQuadric(*quadric).usable())
-            throw wrong(shape, "its transform can't be inverted");
+        const auto fault = std::visit([](const auto& one) { return one.fault(); }, shape.geometry);
+        if (!fault.empty()) throw wrong(shape, fault);
     }
     check_objects(data);
     return data;
@@ -154,11 +141,7 @@ std::span<const ColumnShape> Scene::column_shapes() const { return built_->shadi
 
 Hit Scene::hit(const Query& query) const {
     const auto& shapes = built_->data.shapes;
-    const auto primitives = [](const Shape& shape) {
-        const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-        return mesh ? mesh->triangles.size() : 1;
-    };
-    if (query.geometry >= shapes.size() || query.primitive >= primitives(shapes[query.geometry]) ||
+    if (query.geometry >= shapes.size() || query.primitive >= pieces_of(shapes[query.geometry].geometry) ||
         (query.instance != Query::no_instance && query.instance >= built_->shading.placements().size()))
         throw Error("scene", "a question names a surface that isn't there");
     return {query.instance, query.geometry, query.primitive, query.u, query.v, 0};

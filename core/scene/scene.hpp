@@ -14,14 +14,14 @@
 #include "core/base/math/box.hpp"
 #include "core/base/query.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
-#include "core/scene/camera.hpp"
+#include "core/scene/camera/camera.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/lit_point.hpp"
+#include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
-#include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {
@@ -37,13 +37,13 @@ struct SceneOptions {
 
 /// How large a scene is. Bytes are those that it holds while it lives.
 struct SceneSize {
-    std::size_t triangles = 0, spheres = 0, quadrics = 0;  // as stored; those of an object count once
-    std::size_t instanced_triangles = 0;                   // as seen: once for each instance
-    std::size_t lights = 0;         // lamps (a flat one or a ball counts once, else each triangle), bare
-                                    // lights and environments
-    std::size_t mesh_bytes = 0;     // vertices and triangles, which the trees share
-    std::size_t tree_bytes = 0;     // BVHs
-    std::size_t texture_bytes = 0;  // images, each once; those of environments, too
+    std::size_t triangles = 0;            // as stored; those of an object count once
+    std::size_t instanced_triangles = 0;  // as seen: once for each instance
+    std::size_t lights = 0;               // lamps (a flat one or a ball counts once, else each triangle), bare
+                                          // lights and environments
+    std::size_t shape_bytes = 0;          // vertices and triangles, which the trees share
+    std::size_t tree_bytes = 0;           // BVHs
+    std::size_t texture_bytes = 0;        // images, each once; those of environments, too
     std::size_t light_bytes = 0;
 };
 

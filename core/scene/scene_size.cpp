@@ -24,14 +24,9 @@ SceneSize size_of(const SceneData& data, const Geometry& geometry, const Lights&
     for (const auto& object : data.objects)
         for (const auto shape : object.shapes) in_object[shape] = true;
     for (std::size_t s = 0; s < data.shapes.size(); ++s) {
-        const auto* mesh = std::get_if<Mesh>(&data.shapes[s].geometry);
         size.triangles += triangles_of(data.shapes[s]);
         size.instanced_triangles += in_object[s] ? 0 : triangles_of(data.shapes[s]);
-        size.spheres += std::holds_alternative<Sphere>(data.shapes[s].geometry) ? 1 : 0;
-        size.quadrics += std::holds_alternative<Quadric>(data.shapes[s].geometry) ? 1 : 0;
-        if (mesh)
-            size.mesh_bytes += bytes_of(mesh->positions) + bytes_of(mesh->normals) + bytes_of(mesh->uvs) +
-                               bytes_of(mesh->colours) + bytes_of(mesh->triangles);
+        size.shape_bytes += memory_of(data.shapes[s].geometry);
     }
     for (const auto& instance : data.instances)
         for (const auto shape : data.objects[instance.object].shapes)

@@ -1,4 +1,4 @@
-// How large a scene is.
+// The size of a scene.
 #pragma once
 
 #include "core/scene/data/scene_data.hpp"

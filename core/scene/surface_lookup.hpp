@@ -1,4 +1,4 @@
-// From a position back to the surface point that it is of: for code whose structures hold positions and normals, and no
+// The surface point of a position: for code whose structures hold positions and normals, and no
 // names of ours.
 #pragma once
 

@@ -94,7 +94,7 @@ void measure_loading(const ReferenceScene& row, const SceneFiles& files) {
     show_spread("s to read", reading);
     show_spread("s to build", building);
     std::printf("; %zu triangles, %.0f bytes each (%.0f of trees), %.1f MiB of textures, %.1f MiB of %zu lights\n",
-                size.triangles, double(size.mesh_bytes + size.tree_bytes) / triangles,
+                size.triangles, double(size.shape_bytes + size.tree_bytes) / triangles,
                 double(size.tree_bytes) / triangles, double(size.texture_bytes) / mib, double(size.light_bytes) / mib,
                 size.lights);
 }

@@ -222,7 +222,7 @@ TEST(MitsubaSensor, MayBeALensOrHaveParallelRays) {
     EXPECT_EQ(lens.camera.focus_distance, 7);
     const auto flat =
         seen_by("type='orthographic'><transform name='to_world'><scale x='3' y='3'/></transform>" + wide_film);
-    EXPECT_TRUE(flat.camera.orthographic);
+    EXPECT_TRUE(flat.camera.is_orthographic());
     EXPECT_EQ(flat.camera.screen, (std::array<float, 4>{-3, 3, -1.5f, 1.5f}));
 }
 

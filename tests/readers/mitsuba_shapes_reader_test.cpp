@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/readers/mitsuba/serialized.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::mitsuba_shapes_reader_test {

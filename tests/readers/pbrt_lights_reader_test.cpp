@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/readers/common/spectra.hpp"
-#include "core/scene/camera.hpp"
+#include "core/scene/camera/camera.hpp"
 #include "core/scene/lamps/slide_light.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
@@ -230,14 +230,14 @@ TEST(PbrtCameras, MayHaveALens) {
 
 TEST(PbrtCameras, MayBeOrthographic) {
     const auto flat = camera("Camera \"orthographic\" \"float screenwindow\" [ -2 2 -1 1 ]");
-    EXPECT_TRUE(flat.orthographic);
+    EXPECT_TRUE(flat.is_orthographic());
     EXPECT_EQ(flat.screen[1], 2);
 }
 
 TEST(PbrtCameras, OfOtherTypesAreApproximated) {
     const auto scene = read_text("Camera \"realistic\"\nWorldBegin\n" + ball);
     EXPECT_THAT(warnings_of(scene), HasSubstr("are not supported: a perspective one"));
-    EXPECT_FALSE(scene.camera.orthographic);
+    EXPECT_FALSE(scene.camera.is_orthographic());
 }
 
 // pbrt begins on the right, goes on ahead, to the left and behind.

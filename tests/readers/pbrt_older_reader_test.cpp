@@ -7,7 +7,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/readers/pbrt/older_materials.hpp"
-#include "core/scene/camera.hpp"
+#include "core/scene/camera/camera.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/pbrt_text.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "core/base/unwanted.hpp"
 #include "core/readers/pbrt/subdivision.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/pbrt_text.hpp"
 
 namespace lightnet::test::pbrt_shapes_reader_test {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/references.hpp"
 #include "tests/support/scene_text.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/scene/lamps/bare_lights.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/scene/camera.hpp"
+#include "core/scene/camera/camera.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ TEST(Camera, OpensItsAngleAcrossTheShorterSide) {
 TEST(Camera, KnowsWhereInThePictureAPositionIs) {
     CameraData data = test::camera({1, 2, 3}, {4, 1, -2}, 50);
     for (const bool orthographic : {false, true}) {
-        data.orthographic = orthographic;
+        data.projection = Perspective{};
+        if (orthographic) data.projection = Orthographic{};
         const Camera camera(data, 90, 70);
         for (const auto& [x, y] : {std::pair{45.f, 35.f}, {0.f, 0.f}, {89.f, 12.f}}) {
             const Ray ray = camera.ray(x, y);
@@ -58,7 +59,8 @@ TEST(Camera, SeesNothingBeforeItsNearestPlane) {
     data.nearest = 2;
     for (const bool parallel : {false, true})
         for (const float lens : {0.0f, 0.5f}) {
-            data.orthographic = parallel, data.lens_radius = lens, data.focus_distance = 9;
+            if (parallel) data.projection = Orthographic{};
+            data.lens_radius = lens, data.focus_distance = 9;
             const Camera camera(data, 8, 4);
             data.nearest = 0;
             const Camera whole(data, 8, 4);
@@ -125,7 +127,7 @@ TEST(Camera, IsSharpInItsFocusAndNowhereElse) {
 
 TEST(Camera, WithoutPerspectiveHasParallelRays) {
     CameraData data = test::camera({0, 0, 5}, {0, 0, 0}, 60);
-    data.orthographic = true;
+    data.projection = Orthographic{};
     data.screen = {-3, 3, -2, 2};
     data.screen_given = true;
     const Camera camera(data, 60, 40);

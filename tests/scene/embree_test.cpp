@@ -8,7 +8,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/shapes/ray.hpp"
 
 namespace lightnet::embree_test {
 namespace {

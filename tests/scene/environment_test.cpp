@@ -8,10 +8,10 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/base/math/sky_layout.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/lamps/environment.hpp"
 #include "core/scene/lamps/shares.hpp"
-#include "core/scene/lamps/sky_layout.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"

@@ -5,7 +5,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/transform.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/small_scenes.hpp"
 
 #include <functional>

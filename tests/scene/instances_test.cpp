@@ -292,8 +292,7 @@ TEST(Instances, CountInTheSizeOfAScene) {
     const SceneSize size = scene.size();
     EXPECT_EQ(size.triangles, 2 * 288u);
     EXPECT_EQ(size.instanced_triangles, 13 * 288u);
-    EXPECT_EQ(size.spheres, 2u);
-    EXPECT_GE(size.mesh_bytes, 2 * (169 * (12 + 12 + 8) + 288 * 12u));
+    EXPECT_GE(size.shape_bytes, 2 * (169 * (12 + 12 + 8) + 288 * 12u));
     EXPECT_GT(size.tree_bytes, 2 * 288 * 12u);
     EXPECT_LT(size.tree_bytes, 4u << 20);
 }

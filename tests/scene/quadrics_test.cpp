@@ -12,7 +12,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/scene/data/identity.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet::quadrics_test {

@@ -9,8 +9,8 @@
 #include "core/base/json_tree.hpp"
 #include "core/base/name_id.hpp"
 #include "core/network/graph/lamp_groups.hpp"
+#include "core/scene/camera/camera_matrices.hpp"
 #include "core/scene/camera_in.hpp"
-#include "core/scene/camera_matrices.hpp"
 
 namespace lightnet {
 namespace {
@@ -42,7 +42,7 @@ PictureWords words_of(const Graph& graph, const Registry& registry, const FilmFo
     if (const auto groups = lamp_groups(graph, registry); !groups.empty()) texts["groups"] = joined(groups);
     const auto camera = matrices_of(camera_in(scene, format.width, format.height), format.width, format.height);
     words.notes.matrices["worldToCamera"] = for_rows(camera.to_camera);
-    words.notes.matrices["worldToNDC"] = for_rows(camera.to_ndc);
+    if (camera.to_ndc) words.notes.matrices["worldToNDC"] = for_rows(*camera.to_ndc);
     for (const auto& [name, count] : format.ids) {
         const Node& node = graph.nodes.at(graph.find(name).value());
         words.manifests[name] = manifest_of(scene, named_by(std::get<std::string>(node.params.at("of").data)));

@@ -47,10 +47,8 @@ std::string camera_text(const SceneData& scene) {
     const auto column = [&](int j) {
         return Vec3{float(camera.to_world.m[0][j]), float(camera.to_world.m[1][j]), float(camera.to_world.m[2][j])};
     };
-    const bool around = camera.panorama != CameraData::Panorama::none;
-    std::string text = around                ? "all directions around"
-                       : camera.orthographic ? "orthographic"
-                                             : fmt::format("perspective, {:.4g} degrees", camera.fov);
+    std::string text = std::visit([](const auto& projection) { return projection.name; }, camera.projection);
+    if (std::holds_alternative<Perspective>(camera.projection)) text += fmt::format(", {:.4g} degrees", camera.fov);
     text += fmt::format(", at {}, looks along {}", point_text(column(3)), point_text(column(2)));
     if (camera.lens_radius > 0)
         text += fmt::format(", lens of radius {:.4g}, in focus at {:.4g} (scene units)", camera.lens_radius,
@@ -83,12 +81,10 @@ void print_names(const SceneData& scene, std::ostream& out) {
 }
 
 void print(const SceneData& scene, const SceneStatistics& found, std::ostream& out) {
-    line(out, "triangles",
-         fmt::format("{} in {} meshes, {} with all instances", found.triangles, found.meshes,
-                     found.instanced_triangles));
-    line(out, "shapes",
-         fmt::format("{} spheres, {} quadrics, {} objects, {} instances", found.spheres, found.quadrics, found.objects,
-                     found.instances));
+    line(out, "triangles", fmt::format("{}, {} with all instances", found.triangles, found.instanced_triangles));
+    std::string shapes;
+    for (const auto& [names, count] : found.shapes) shapes += fmt::format("{} {}, ", count, names);
+    line(out, "shapes", fmt::format("{}{} objects, {} instances", shapes, found.objects, found.instances));
     line(out, "materials", counts_text(found.materials));
     line(out, "lights", counts_text(found.lights));
     print_names(scene, out);

@@ -1,4 +1,4 @@
-// Where every random number of a run comes from: keys, derived from keys. Nothing else ever seeds anything, so a number
+// Keys, from which every random number of a run comes. Nothing else ever seeds anything, so a number
 // depends on what is computed, never on the thread, host, bundle or attempt that computes it.
 #pragma once
 

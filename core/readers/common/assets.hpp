@@ -1,4 +1,4 @@
-// What the readers of scenes draw on while they fill a scene: its files, its images, each decoded once, its textures.
+// Files, images (each decoded once) and textures, on which readers draw while they fill a scene.
 #pragma once
 
 #include <cstddef>

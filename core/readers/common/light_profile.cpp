@@ -11,7 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/scene/lamps/sky_layout.hpp"
+#include "core/base/math/sky_layout.hpp"
 
 namespace lightnet {
 namespace {

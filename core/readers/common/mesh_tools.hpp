@@ -1,4 +1,4 @@
-// What is done to meshes between a file and a scene.
+// Changes to meshes between a file and a scene.
 #pragma once
 
 #include <cstdint>

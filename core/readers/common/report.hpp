@@ -1,4 +1,4 @@
-// What a reader of scenes has to say about the files: mistakes and approximations, collected while it reads on.
+// Mistakes and approximations of scene files, collected while a reader reads on.
 #pragma once
 
 #include <cstddef>

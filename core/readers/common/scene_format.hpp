@@ -1,4 +1,4 @@
-// What a format of scene files says of itself.
+// A format of scene files: its endings, and the function that reads them.
 #pragma once
 
 #include <map>

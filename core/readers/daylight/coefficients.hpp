@@ -1,4 +1,4 @@
-// What the sky model of Hošek and Wilkie was fitted with: third-party data, of which this is the licence.
+// Coefficients of Hošek and Wilkie's sky model: third-party data, of which this is the licence.
 //
 // Copyright (c) 2012, Lukas Hosek and Alexander Wilkie
 // All rights reserved.

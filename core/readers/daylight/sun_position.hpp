@@ -1,4 +1,4 @@
-// Where the sun stands.
+// The position of the sun at a time and place.
 #pragma once
 
 namespace lightnet {

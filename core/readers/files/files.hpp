@@ -1,4 +1,4 @@
-// Where the bytes of a scene come from: a disk, or blobs that were sent.
+// The source of a scene's bytes: a disk, or blobs that were sent.
 #pragma once
 
 #include <atomic>

@@ -241,7 +241,8 @@ private:
     bool lens(const At& at, CameraData& camera, FilmData& film) {
         if (at["type"].text("perspective") == "orthographic") {
             const float x = at["orthographic"]["xmag"].real(1), y = at["orthographic"]["ymag"].real(1);
-            camera.orthographic = camera.screen_given = true;
+            camera.projection = Orthographic{};
+            camera.screen_given = true;
             camera.screen = {-x, x, -y, y};
             return resize(at, film, double(x) / double(y));
         }

@@ -1,4 +1,4 @@
-// What a glTF file says that nobody has asked for.
+// Members of a glTF file that nobody has asked for.
 #pragma once
 
 #include "core/readers/gltf/json.hpp"

@@ -1,4 +1,4 @@
-// What Mitsuba's sensors cut away: what is nearer than one plane across their axis, or farther than another.
+// Clipping planes of Mitsuba's sensors, across their axis.
 #pragma once
 
 #include "core/readers/mitsuba/properties.hpp"

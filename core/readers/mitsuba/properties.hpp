@@ -1,4 +1,4 @@
-// What an element of a Mitsuba scene says, asked for by name and type.
+// Properties of an element of a Mitsuba scene, asked for by name and type.
 #pragma once
 
 #include <initializer_list>

@@ -107,7 +107,7 @@ SensorDepth set_sensor(const Node& node, const Context& context) {
     const float shift_x = properties.number("principal_point_offset_x", 0),
                 shift_y = properties.number("principal_point_offset_y", 0);
     if (node.type == "orthographic") {
-        camera.orthographic = true;
+        camera.projection = Orthographic{};
         camera.screen_given = true;
         camera.screen = {-scale.x, scale.x, -scale.y * float(h / w), scale.y * float(h / w)};
     } else {
@@ -117,8 +117,8 @@ SensorDepth set_sensor(const Node& node, const Context& context) {
         camera.fov = static_cast<float>(2 * std::atan(std::min(extent.x, extent.y)) / one_degree);
     }
     if (shift_x != 0 || shift_y != 0) {
-        const float wide = camera.orthographic ? camera.screen[1] : float(std::max(1.0, w / h));
-        const float high = camera.orthographic ? camera.screen[3] : float(std::max(1.0, h / w));
+        const float wide = camera.is_orthographic() ? camera.screen[1] : float(std::max(1.0, w / h));
+        const float high = camera.is_orthographic() ? camera.screen[3] : float(std::max(1.0, h / w));
         const float x = 2 * shift_x * wide, y = 2 * shift_y * high;
         camera.screen = {x - wide, x + wide, -y - high, -y + high};  // what Mitsuba sees is moved right and down
         camera.screen_given = true;

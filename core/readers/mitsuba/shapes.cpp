@@ -16,7 +16,7 @@
 #include "core/readers/mitsuba/transforms.hpp"
 #include "core/readers/obj/model.hpp"
 #include "core/readers/ply/mesh.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 #include "core/scene/surfaces/placement.hpp"
 
 namespace lightnet::mitsuba {
@@ -67,7 +67,7 @@ std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
         emission.reset();
     }
     if (!geometry) return std::nullopt;
-    if (const auto* mesh = std::get_if<Mesh>(&*geometry)) size_ += mesh->triangles.size();
+    size_ += pieces_of(*geometry);
     if (size_ > most_triangles) {
         context_.error(node, "the scene has too many triangles");
         return std::nullopt;

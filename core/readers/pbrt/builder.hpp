@@ -1,4 +1,4 @@
-// What the statements of a pbrt file mean: executes them one by one, and ends with a scene.
+// The interpreter of a pbrt file: executes statements one by one, and ends with a scene.
 #pragma once
 
 #include <cstdint>

@@ -51,8 +51,7 @@ void Builder::finish_shape(WaitingShape& waiting) {
     MadeShape& made = *waiting.made;
     if (!made.problem.empty()) sources_.report.error(waiting.where, waiting.owner + ": " + made.problem);
     if (!made.geometry || !uses_[waiting.material].made) return;
-    const auto* mesh = std::get_if<Mesh>(&*made.geometry);
-    if (mesh && mesh->triangles.empty())
+    if (pieces_of(*made.geometry) == 0)
         return sources_.report.warn(waiting.where, "a shape without any triangle is left out");
     const MaterialId material = filled(*uses_[waiting.material].made, waiting);
     if (std::holds_alternative<NoMaterial>(scene_.materials[material].model)) {

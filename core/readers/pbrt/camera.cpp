@@ -54,11 +54,11 @@ void approximate_lens_system(CameraData& camera, Parameters& parameters) {
 
 /// All directions, by pbrt's maps; pbrt-v3 has one only.
 void look_around(CameraData& camera, Parameters& parameters, Version version) {
-    using Panorama = CameraData::Panorama;
     const std::string mapping = version == Version::v3 ? "equirectangular" : parameters.text("mapping", "equalarea");
     if (mapping != "equirectangular" && mapping != "equalarea")
         parameters.error(fmt::format("unknown mapping '{}' (there are 'equalarea' and 'equirectangular')", mapping));
-    camera.panorama = mapping == "equalarea" ? Panorama::equal_area : Panorama::latitude_longitude;
+    camera.projection = LatitudeLongitude{};
+    if (mapping == "equalarea") camera.projection = EqualArea{};
 }
 
 /// The angle of view in degrees; half of it has a name of its own.
@@ -86,7 +86,7 @@ void take_scale_out(CameraData& camera) {
         for (int j = 0; j < 3; ++j) camera.to_world.m[i][j] /= *scale;
     camera.lens_radius *= float(*scale);
     camera.focus_distance *= float(*scale);
-    if (camera.orthographic)
+    if (camera.is_orthographic())
         for (float& side : camera.screen) side *= float(*scale);
 }
 
@@ -99,7 +99,7 @@ Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& 
         parameters.ignore_all();
         return shot;
     }
-    shot.camera.orthographic = type == "orthographic";
+    if (type == "orthographic") shot.camera.projection = Orthographic{};
     if (type == "realistic") approximate_lens_system(shot.camera, parameters);
     if (type == "spherical" || type == "environment") look_around(shot.camera, parameters, version);
     if (type == "perspective") shot.camera.fov = angle_of_view(parameters, version);

@@ -1,4 +1,4 @@
-// What pbrt-v3 means by a light, where pbrt-v4 means something else.
+// Lights of pbrt-v3, where pbrt-v4 means something else.
 #pragma once
 
 #include "core/base/math/transform.hpp"

@@ -1,4 +1,4 @@
-// What images around a scene amount to.
+// Light of images around a scene, worked out.
 #pragma once
 
 #include "core/scene/data/scene_data.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 
 namespace lightnet::pbrt {
 namespace {

@@ -16,7 +16,7 @@
 #include "core/readers/pbrt/quadrics.hpp"
 #include "core/readers/pbrt/transforms.hpp"
 #include "core/readers/ply/mesh.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 
 namespace lightnet::pbrt {
 namespace {
@@ -161,18 +161,6 @@ std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placem
         }
     });
     return made;
-}
-
-double area_of(const Geometry& geometry) {
-    if (const auto* ball = std::get_if<Sphere>(&geometry))
-        return 4 * std::numbers::pi * double(ball->radius) * double(ball->radius);
-    if (const auto* quadric = std::get_if<Quadric>(&geometry)) return PlacedQuadric(*quadric).area();
-    double area = 0;
-    const auto& mesh = std::get<Mesh>(geometry);
-    for (const auto& t : mesh.triangles)
-        area += 0.5 * double(length(cross(mesh.positions[t[1]] - mesh.positions[t[0]],
-                                          mesh.positions[t[2]] - mesh.positions[t[0]])));
-    return area;
 }
 
 }  // namespace lightnet::pbrt

@@ -63,6 +63,4 @@ private:
     Budget budget_;
 };
 
-double area_of(const Geometry& geometry);
-
 }  // namespace lightnet::pbrt

@@ -1,4 +1,4 @@
-// What the reader of one pbrt scene reads from.
+// Sources of one pbrt scene: files, report, version.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What parameters say of textures: which one, which number, which colour; and what is made of those that are there.
+// Textures that parameters name: the colour or number that each stands for, and what is made of those that are there.
 #include <algorithm>
 #include <map>
 #include <utility>

@@ -1,4 +1,4 @@
-// Which version of pbrt a file was written for: they share their syntax, and say different things in it.
+// The version of pbrt that a file was written for: all share their syntax, and say different things in it.
 #pragma once
 
 #include <optional>

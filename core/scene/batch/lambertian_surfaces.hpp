@@ -1,4 +1,4 @@
-// What most surfaces are, many at once: meshes that reflect the same radiance into all directions, without bumps.
+// Lambertian meshes without bumps, as most surfaces are, shaded many at once.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// How one point of a surface scatters light.
+// The BSDF of one point of a surface.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// How much light comes back out of a coat over metal, by how often it met the metal.
+// Light that comes back out of a coat over metal, by how often it met the metal.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// How much light a flat interface reflects.
+// Reflectance of a flat interface.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a material is told of one place of a surface, and what it may say of itself.
+// Inputs of a material at one place of a surface, and what it may say of itself.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a goniophotometer has measured of a surface, in the coordinates of Dupuy & Jakob 2018, "An Adaptive
+// Measurements of a goniophotometer, in the coordinates of Dupuy & Jakob 2018, "An Adaptive
 // Parameterization for Efficient Material Acquisition and Rendering".
 #pragma once
 

@@ -1,4 +1,4 @@
-// What single facets of the principled model reflect and let through.
+// Single facets of the principled model: what they reflect and let through.
 #include <algorithm>
 #include <cmath>
 

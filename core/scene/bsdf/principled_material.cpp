@@ -1,4 +1,4 @@
-// What the principled material is at a place.
+// The principled material at a place.
 #include <algorithm>
 #include <cmath>
 

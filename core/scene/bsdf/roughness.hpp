@@ -1,4 +1,4 @@
-// How rough a material says it is, and the microfacets that it means.
+// Roughness of a material, and the microfacets that it means.
 #pragma once
 
 #include <optional>

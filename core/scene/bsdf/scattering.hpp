@@ -1,4 +1,4 @@
-// What the models of scattering share.
+// Types that the models of scattering share.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What there is in a scene, once each.
+// The contents of a scene, once each.
 #pragma once
 
 #include <cstdint>

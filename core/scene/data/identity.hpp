@@ -1,4 +1,4 @@
-// Which scene is it, to the light in it?
+// The identity of a scene, to the light in it.
 #pragma once
 
 #include "core/base/hash.hpp"

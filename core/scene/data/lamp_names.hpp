@@ -1,4 +1,4 @@
-// How lamps are called, and sorted into groups.
+// Names of lamps, and the groups into which they are sorted.
 #pragma once
 
 #include <cstddef>

@@ -14,6 +14,8 @@
 #include "core/base/math/transform.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/bsdf/material.hpp"
+#include "core/scene/camera/camera_data.hpp"
+#include "core/scene/shapes/shape.hpp"
 #include "core/scene/textures/texture.hpp"
 
 namespace lightnet {
@@ -36,55 +38,6 @@ void visit_members(Is<AreaEmission> auto& emission, const auto& visit) {
     auto& [radiance, two_sided, texture, label, unseen] = emission;
     visit(radiance, two_sided, texture, unseen);
 }
-
-struct Mesh {
-    std::vector<Vec3> positions;  // world space
-    std::vector<Vec3> normals;    // shading normals per vertex, or empty
-    std::vector<Vec2> uvs;        // per vertex, or empty
-    std::vector<Rgb> colours;     // per vertex, linear, or empty
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    bool flip_normals = false;       // geometric normal against the order of vertices; with shading normals
-                                     // a reader orders them so that both lie on the same side
-    std::vector<Vec2> second_uvs{};  // per vertex, or empty: see SecondUvTexture
-};
-void visit_members(Is<Mesh> auto& mesh, const auto& visit) {
-    auto& [positions, normals, uvs, colours, triangles, flip_normals, second_uvs] = mesh;
-    visit(positions, normals, uvs, colours, triangles, flip_normals, second_uvs);
-}
-
-struct Sphere {
-    Vec3 center;
-    float radius = 1;           // metres
-    bool flip_normals = false;  // normal inwards
-    Matrix to_world{};          // its own axes, for texture coordinates: orthonormal, nothing moved
-};
-void visit_members(Is<Sphere> auto& sphere, const auto& visit) {
-    auto& [center, radius, flip_normals, to_world] = sphere;
-    visit(center, radius, flip_normals, to_world);
-}
-
-/// A round surface that an affine transform may stretch, seen in its own space as a part of
-///   disk: the unit disk at z = 0, from the radius `inner` on; its normal is +z
-///   cylinder: that around the z axis of radius 1, for z in [0, 1]; its normal is outwards
-///   sphere: that of radius 1, for z in [low, high]; its normal is outwards
-/// and of each that within `turn` from +x towards +y.
-struct Quadric {
-    enum class Round { disk, cylinder, sphere } round = Round::disk;
-    float inner = 0;           // of disks, below 1
-    float low = -1, high = 1;  // of spheres
-    float turn = 6.2831855f;   // radians, up to 2π
-    bool flip_normals = false;
-    Matrix to_world{};  // affine, not singular; normals stay on their side
-    /// Texture coordinates, rows of factors for (a, b, 1). a: share of the turn. b: of a disk from its rim inwards, of
-    /// a cylinder upwards, of a sphere by the angle upwards.
-    std::array<std::array<float, 3>, 2> to_uv{{{1, 0, 0}, {0, 1, 0}}};
-};
-void visit_members(Is<Quadric> auto& quadric, const auto& visit) {
-    auto& [round, inner, low, high, turn, flip_normals, to_world, to_uv] = quadric;
-    visit(round, inner, low, high, turn, flip_normals, to_world, to_uv);
-}
-
-using ShapeGeometry = std::variant<Mesh, Sphere, Quadric>;
 
 struct Shape {
     ShapeGeometry geometry;
@@ -116,23 +69,6 @@ void visit_members(Is<Instance> auto& instance, const auto& visit) {
     auto& [object, to_world] = instance;
     visit(object, to_world);
 }
-
-/// Right-handed picture: x to the right, y down in the picture.
-struct CameraData {
-    Matrix to_world{};  // camera space: looks along +z, y up, x to the right of the picture
-    bool orthographic = false;
-    /// All directions at once, as sky_layout.hpp lays them out in a picture, of which x and z are turned to -z and x
-    /// (latitude_longitude), y and z swapped (equal_area): pbrt's.
-    enum class Panorama { none, latitude_longitude, equal_area } panorama = Panorama::none;
-    float fov = 90;  // degrees, across the shorter side of the picture; of use for a perspective camera only
-    std::array<float, 4> screen{-1, 1, -1, 1};  // x min, x max, y min, y max at distance 1/tan(fov/2), shorter side =
-                                                // ±1; orthographic: in metres
-    bool screen_given = false;                  // else derived from the picture's shape
-    float lens_radius = 0;                      // metres; 0: a pinhole
-    float focus_distance = 1e6f;                // metres along the axis to the plane in which everything is sharp
-    SourceLine where{};                         // it stands in the files, if anywhere
-    float nearest = 0;                          // metres along the axis: what lies before that is not seen
-};
 
 struct FilmData {
     std::uint32_t width = 512, height = 512;

@@ -1,4 +1,4 @@
-// How surfaces are called, for pictures that tell them apart.
+// Names of surfaces, for pictures that tell them apart.
 #pragma once
 
 #include <string>

@@ -192,7 +192,7 @@ RTCGeometry make(RTCDevice device, Sphere& sphere, Form& form) {
 }
 
 RTCGeometry make(RTCDevice device, Quadric&, Form& form) {
-    form.quadric = form.shading->quadric(form.shape);
+    form.quadric = &std::get<PlacedQuadric>(form.shading->placed(form.shape));
     return round_geometry<PlacedQuadric>(device, quadric_bounds);
 }
 

@@ -1,4 +1,4 @@
-// What rays meet. The home of Embree is this folder.
+// Shapes as rays meet them. The home of Embree is this folder.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include "core/base/math/box.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/geometry/nearest_surface.hpp"
-#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
 
 namespace lightnet {

@@ -67,13 +67,7 @@ private:
     void look_at(Hit hit) {
         const bool placed = hit.instance != Query::no_instance;
         const Placement* placement = placed ? &surfaces_.shading.placements()[hit.instance] : nullptr;
-        const auto& shape = surfaces_.data.shapes[hit.geometry].geometry;
-        if (const auto* sphere = std::get_if<Sphere>(&shape))
-            put_on_sphere(hit, *sphere, placement);
-        else if (const PlacedQuadric* quadric = surfaces_.shading.quadric(hit.geometry))
-            put_on_quadric(hit, *quadric, placement);
-        else
-            put_on_triangle(hit, std::get<Mesh>(shape), placement);
+        std::visit([&](const auto& shape) { put_on(hit, shape, placement); }, surfaces_.shading.placed(hit.geometry));
         if (forms_[hit.geometry].is_there({hit.primitive, {hit.u, hit.v}})) compare(hit, point(hit, placement));
     }
     SurfacePoint point(const Hit& hit, const Placement* placement) const {
@@ -81,8 +75,8 @@ private:
         return placement ? placement->place(own) : own;
     }
 
-    void put_on_triangle(Hit& hit, const Mesh& mesh, const Placement* placement) const {
-        Corners at = corners(mesh, hit.primitive);
+    void put_on(Hit& hit, const Mesh* mesh, const Placement* placement) const {
+        Corners at = corners(*mesh, hit.primitive);
         if (placement)
             for (Vec3* corner : {&at.a, &at.b, &at.c}) *corner = placement->point_to_world(*corner);
         const Vec2 weights = nearest_on_triangle(at, wish_.position);
@@ -91,10 +85,10 @@ private:
 
     // Of a stretched one, the direction from its centre is not that in which it is nearest: towards its tangent plane,
     // and again.
-    void put_on_sphere(Hit& hit, const Sphere& sphere, const Placement* placement) const {
+    void put_on(Hit& hit, const Sphere* sphere, const Placement* placement) const {
         Vec3 towards = wish_.position;
         for (int step = 0; step < (placement ? 3 : 1); ++step) {
-            const Vec3 outwards = (placement ? placement->point_to_object(towards) : towards) - sphere.center;
+            const Vec3 outwards = (placement ? placement->point_to_object(towards) : towards) - sphere->center;
             const float far = length(outwards);
             const Vec2 name = to_octahedral(far > 0 ? outwards / far : Vec3{0, 0, 1});
             hit.u = name.x, hit.v = name.y;
@@ -104,7 +98,7 @@ private:
     }
 
     // As for a stretched sphere: towards the tangent plane where it is near in its own space, and again.
-    void put_on_quadric(Hit& hit, const PlacedQuadric& quadric, const Placement* placement) const {
+    void put_on(Hit& hit, const PlacedQuadric& quadric, const Placement* placement) const {
         Vec3 towards = wish_.position;
         for (int step = 0; step < 4; ++step) {
             const Vec2 name = quadric.name_near(placement ? placement->point_to_object(towards) : towards);

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/scene/data/scene_data.hpp"
-#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
 
 struct RTCSceneTy;

@@ -35,6 +35,28 @@ bool is_lamp(const SceneData& data, const Shape& shape, GroupSet groups) {
            !std::holds_alternative<NoMaterial>(data.materials[shape.material].model);
 }
 
+/// A point of a lamp that a ray has found, to be told how likely sample() is to find it.
+struct Found {
+    Vec3 from, direction;
+    const SurfacePoint& on;
+    float area;  // m², of the lamp
+    bool two_sided;
+
+    float way2() const { return length_squared(on.position - from); }
+};
+float density(const Mesh*, const Found& found) {
+    const float cosine = std::max(1e-6f, std::fabs(dot(found.on.normal, found.direction)));
+    return found.area > 0 ? found.way2() / (found.area * cosine) : 0;
+}
+float density(const Sphere* ball, const Found& found) {
+    const SeenBall seen(ball->center, ball->radius, found.from);
+    return seen.pdf(found.on.normal, found.direction, found.way2(), found.area);
+}
+float density(const PlacedQuadric& quadric, const Found& found) {
+    const SeenQuadric seen(quadric, found.from, found.two_sided);
+    return seen.pdf(found.direction, quadric.own_point({found.on.u, found.on.v}));
+}
+
 }  // namespace
 
 AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet groups, bool apart)
@@ -42,22 +64,24 @@ AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet gro
     for (std::uint32_t s = 0; s < data.shapes.size(); ++s) {
         const Shape& shape = data.shapes[s];
         if (!is_lamp(data, shape, groups)) continue;
-        if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-            add_mesh(s, *mesh);
-        } else if (const PlacedQuadric* quadric = shading.quadric(s)) {
-            const Box box = quadric->bounds();
-            balls_.add(box.center(), length(box.size()) / 2);
-            add_source(s, 1, 0);
-        } else {
-            const auto& ball = std::get<Sphere>(shape.geometry);
-            balls_.add(ball.center, ball.radius);
-            add_source(s, 1, 0);
-        }
+        std::visit([&](const auto& placed) { add(s, placed); }, shading.placed(s));
     }
     for (std::size_t i = 0; size() <= most_known && i < size(); ++i) known_.push_back(even(i));
 }
 
-void AreaLamps::add_mesh(std::uint32_t shape, const Mesh& mesh) {
+void AreaLamps::add(std::uint32_t shape, const Sphere* ball) {
+    balls_.add(ball->center, ball->radius);
+    add_source(shape, 1, 0);
+}
+
+void AreaLamps::add(std::uint32_t shape, const PlacedQuadric& quadric) {
+    const Box box = quadric.bounds();
+    balls_.add(box.center(), length(box.size()) / 2);
+    add_source(shape, 1, 0);
+}
+
+void AreaLamps::add(std::uint32_t shape, const Mesh* placed) {
+    const Mesh& mesh = *placed;
     const auto count = std::uint32_t(mesh.triangles.size());
     bool flat = true;
     Box box;
@@ -93,7 +117,7 @@ void AreaLamps::add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32
     Source source;
     source.shape = shape;
     source.first_lamp = std::uint32_t(source_of_.size());
-    source.by_triangle = facets == 0 && std::holds_alternative<Mesh>(data_.shapes[shape].geometry);
+    source.by_triangle = facets == 0 && std::holds_alternative<const Mesh*>(shading_.placed(shape));
     source.first = std::uint32_t(facets_.size()) - facets;
     source.facets = facets;
     source.radiance = emission.radiance;
@@ -101,10 +125,7 @@ void AreaLamps::add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32
     source.group = group_of(shape);
     source.unseen = emission.unseen;
     source.uniform = !emission.texture && !shading_.has_holes(shape) && !emission.unseen;
-    for (std::uint32_t f = source.first; f < facets_.size(); ++f) source.area += area_of(facets_[f]);
-    if (const auto* ball = std::get_if<Sphere>(&data_.shapes[shape].geometry))
-        source.area = 4 * pi * ball->radius * ball->radius;
-    if (const PlacedQuadric* quadric = shading_.quadric(shape)) source.area = quadric->area();
+    source.area = on_shape(source, [&](const auto& placed) { return area(source, placed); });
     if (!std::isfinite(source.area)) source.area = 0;  // never chosen
     if (source.uniform && facets == 2)
         if (const auto whole = parallelogram(facets_[source.first], facets_[source.first + 1])) {
@@ -115,6 +136,14 @@ void AreaLamps::add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32
     source_of_.resize(source_of_.size() + lamps, std::uint32_t(sources_.size()));
     sources_.push_back(source);
 }
+
+float AreaLamps::area(const Source& source, const Mesh*) const {
+    float area = 0;
+    for (std::uint32_t f = source.first; f < facets_.size(); ++f) area += area_of(facets_[f]);
+    return area;
+}
+float AreaLamps::area(const Source&, const Sphere* ball) const { return 4 * pi * ball->radius * ball->radius; }
+float AreaLamps::area(const Source&, const PlacedQuadric& quadric) const { return quadric.area(); }
 
 AreaLamps::Lamp AreaLamps::lamp(std::size_t index) const {
     const Source& source = sources_[source_of_[index]];
@@ -149,16 +178,8 @@ Rgb AreaLamps::mean_of_texture(const Lamp& lamp) const {
     Rgb sum{0.16f, 0.16f, 0.16f};
     for (int i = 0; i < 16; ++i) {
         const Vec2 u{(float(i % 4) + 0.5f) / 4, (float(i / 4) + 0.5f) / 4};
-        PointOnLamp point;
-        if (is_mesh(lamp.source)) {
-            point = on_mesh(lamp, u);
-        } else if (const PlacedQuadric* quadric = quadric_of(lamp.source)) {
-            point = on_quadric(*quadric, quadric->own_uniform(u));
-        } else {
-            const Vec2 name = to_octahedral(sphere(u));
-            point.u = name.x;
-            point.v = name.y;
-        }
+        const PointOnLamp point =
+            on_shape(lamp.source, [&](const auto& placed) { return start(lamp, placed, u).point; });
         sum += texture_at(shape, point.primitive, point.u, point.v);
     }
     return sum / 16.16f;
@@ -196,27 +217,35 @@ Facet AreaLamps::facet_of(const Lamp& lamp, std::uint32_t& primitive, float& u) 
     return facets_[source.first + primitive];
 }
 
-AreaLamps::PointOnLamp AreaLamps::on_mesh(const Lamp& lamp, Vec2 u) const {
+AreaLamps::Start AreaLamps::start(const Lamp& lamp, const Mesh*, Vec2 u) const {
     std::uint32_t primitive = 0;
     const Facet facet = facet_of(lamp, primitive, u.x);
     const Vec2 at = triangle(u);
-    return {facet.at(at), facet.normal, primitive, at.x, at.y};
+    return {{facet.at(at), facet.normal, primitive, at.x, at.y}, lamp.area};
 }
 
-AreaLamps::PointOnLamp AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) const {
+AreaLamps::Start AreaLamps::start(const Lamp& lamp, const Sphere* ball, Vec2 u) const {
+    return {on_sphere(*ball, sphere(u)), lamp.area};
+}
+
+AreaLamps::Start AreaLamps::start(const Lamp&, const PlacedQuadric& quadric, Vec2 u) const {
+    const Vec3 own = quadric.own_uniform(u);
+    return {on_quadric(quadric, own), quadric.own_area() * quadric.stretch(own)};
+}
+
+AreaLamps::PointOnLamp AreaLamps::on_sphere(const Sphere& ball, Vec3 outwards) {
     const Vec2 name = to_octahedral(outwards);
     return {on_ball(ball.center, ball.radius, outwards), ball.flip_normals ? -outwards : outwards, 0, name.x, name.y};
 }
 
-AreaLamps::PointOnLamp AreaLamps::on_quadric(const PlacedQuadric& quadric, Vec3 own) const {
+AreaLamps::PointOnLamp AreaLamps::on_quadric(const PlacedQuadric& quadric, Vec3 own) {
     const Vec2 name = quadric.name_of(own);
     return {quadric.position(own), quadric.normal(own), 0, name.x, name.y};
 }
 
 std::optional<LightSample> AreaLamps::sample(std::size_t index, Vec3 from, Vec2 u) const {
     const Lamp one = lamp(index);
-    if (is_mesh(one.source)) return from_mesh(one, from, u);
-    return ball_of(one.source) ? from_sphere(one, from, u) : from_quadric(one, from, u);
+    return on_shape(one.source, [&](const auto& placed) { return sample(one, placed, from, u); });
 }
 
 void AreaLamps::expect(std::span<const LightChoice> chosen) const {
@@ -235,7 +264,7 @@ void AreaLamps::expect(std::span<const LightChoice> chosen) const {
     each_triangle([](const Mesh& mesh, std::uint32_t triangle) { fetch_corners(mesh, triangle); });
 }
 
-std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const {
+std::optional<LightSample> AreaLamps::sample(const Lamp& lamp, const Mesh*, Vec3 from, Vec2 u) const {
     const Source& source = lamp.source;
     const bool whole = source.whole != none;
     std::uint32_t primitive = 0;
@@ -254,45 +283,47 @@ std::optional<LightSample> AreaLamps::from_mesh(const Lamp& lamp, Vec3 from, Vec
         before_lamp(on, position, direction), direction, radiance, pdf, source.unseen, false, source.group};
 }
 
-std::optional<FlatLamp> AreaLamps::flat(const Lamp& one) const {
+AreaLamps::EvenLamp AreaLamps::even(const Lamp& one, const Mesh*) const {
     const Source& source = one.source;
     const bool whole = source.whole != none;
-    if (!is_mesh(source) || !source.uniform || (!whole && source.facets > 1)) return {};
+    if (!source.uniform || (!whole && source.facets > 1)) return {};
     std::uint32_t primitive = 0;
     float u = 0;
     const Facet facet = whole ? wholes_[source.whole] : facet_of(one, primitive, u);
     return FlatLamp{facet, whole, one.area, source.radiance, source.two_sided, source.group};
 }
 
-BallLamp AreaLamps::ball(const Lamp& one) const {
+BallLamp AreaLamps::ball_lamp(const Lamp& one, const Sphere& ball) {
     const Source& source = one.source;
-    const Sphere& ball = *ball_of(source);
     return {ball.center, ball.radius, one.area, source.radiance, ball.flip_normals, source.two_sided, source.group};
 }
 
 AreaLamps::EvenLamp AreaLamps::even(std::size_t index) const {
     const Lamp one = lamp(index);
-    if (ball_of(one.source)) return one.source.uniform ? EvenLamp(ball(one)) : EvenLamp();
-    const auto found = flat(one);
-    return found ? EvenLamp(*found) : EvenLamp();
+    return on_shape(one.source, [&](const auto& placed) { return even(one, placed); });
 }
 
-std::optional<LightSample> AreaLamps::from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const {
+AreaLamps::EvenLamp AreaLamps::even(const Lamp& one, const Sphere* ball) const {
+    return one.source.uniform ? EvenLamp(ball_lamp(one, *ball)) : EvenLamp();
+}
+
+AreaLamps::EvenLamp AreaLamps::even(const Lamp&, const PlacedQuadric&) const { return {}; }
+
+std::optional<LightSample> AreaLamps::sample(const Lamp& lamp, const Sphere* on, Vec3 from, Vec2 u) const {
     const Source& source = lamp.source;
-    const WayToBall way = way_to_ball(ball(lamp), from, u);
+    const WayToBall way = way_to_ball(ball_lamp(lamp, *on), from, u);
     if (!way.found) return {};
     Rgb radiance = source.radiance;
     if (!source.uniform) {
-        const PointOnLamp point = on_sphere(*ball_of(source), way.outwards);
+        const PointOnLamp point = on_sphere(*on, way.outwards);
         if (!is_there(source, point)) return {};
         radiance = radiance_at(source, point);
     }
     return LightSample{way.position, way.direction, radiance, way.pdf, source.unseen, false, source.group};
 }
 
-std::optional<LightSample> AreaLamps::from_quadric(const Lamp& lamp, Vec3 from, Vec2 u) const {
+std::optional<LightSample> AreaLamps::sample(const Lamp& lamp, const PlacedQuadric& quadric, Vec3 from, Vec2 u) const {
     const Source& source = lamp.source;
-    const PlacedQuadric& quadric = *quadric_of(source);
     const SeenQuadric seen(quadric, from, source.two_sided);
     const Vec3 own = seen.sample(u);
     const PointOnLamp point = on_quadric(quadric, own);
@@ -310,29 +341,31 @@ std::optional<LightSample> AreaLamps::from_quadric(const Lamp& lamp, Vec3 from, 
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
     const Lamp one = lamp(index);
-    const float way2 = length_squared(on.position - from);
-    if (const Sphere* ball = ball_of(one.source))
-        return SeenBall(ball->center, ball->radius, from).pdf(on.normal, direction, way2, one.area);
-    if (const PlacedQuadric* quadric = quadric_of(one.source))
-        return SeenQuadric(*quadric, from, one.source.two_sided).pdf(direction, quadric->own_point({on.u, on.v}));
-    const float cosine = std::max(1e-6f, std::fabs(dot(on.normal, direction)));
-    return one.area > 0 ? way2 / (one.area * cosine) : 0;
+    const Found found{from, direction, on, one.area, one.source.two_sided};
+    return on_shape(one.source, [&](const auto& placed) { return density(placed, found); });
 }
 
 LightBounds AreaLamps::bounds(std::size_t index) const {
     const Lamp one = lamp(index);
     const Source& source = one.source;
     const float radiance = luminance(source.radiance * mean_of_texture(one));
-    if (const Sphere* ball = ball_of(source)) {
-        const Vec3 r{ball->radius, ball->radius, ball->radius};
-        return {ball->center - r, ball->center + r, {0, 0, 1}, -1, 0, radiance * one.area / 4, false};
-    }
-    if (const PlacedQuadric* quadric = quadric_of(source)) {
-        const Box box = quadric->bounds();
-        if (quadric->quadric().round == Quadric::Round::disk)
-            return {box.low, box.high, quadric->normal({}), 1, 0, radiance * one.area, source.two_sided};
-        return {box.low, box.high, {0, 0, 1}, -1, 0, radiance * one.area / 4, false};
-    }
+    return on_shape(source, [&](const auto& placed) { return bounds(one, placed, radiance); });
+}
+
+LightBounds AreaLamps::bounds(const Lamp& one, const Sphere* ball, float radiance) const {
+    const Vec3 r{ball->radius, ball->radius, ball->radius};
+    return {ball->center - r, ball->center + r, {0, 0, 1}, -1, 0, radiance * one.area / 4, false};
+}
+
+LightBounds AreaLamps::bounds(const Lamp& one, const PlacedQuadric& quadric, float radiance) const {
+    const Box box = quadric.bounds();
+    if (quadric.quadric().round == Quadric::Round::disk)
+        return {box.low, box.high, quadric.normal({}), 1, 0, radiance * one.area, one.source.two_sided};
+    return {box.low, box.high, {0, 0, 1}, -1, 0, radiance * one.area / 4, false};
+}
+
+LightBounds AreaLamps::bounds(const Lamp& one, const Mesh*, float radiance) const {
+    const Source& source = one.source;
     Box box;
     const auto add = [&](const Facet& f) {
         for (const Vec3 p : {f.corner, f.corner + f.first_edge, f.corner + f.second_edge}) box.add(p);
@@ -355,17 +388,8 @@ std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample,
     const Source& source = one.source;
     if (!(one.area > 0)) return {};
     float sides = 1;
-    float area = one.area;
-    PointOnLamp start;
-    if (const Sphere* ball = ball_of(source)) {
-        start = on_sphere(*ball, sphere(position_sample));
-    } else if (const PlacedQuadric* quadric = quadric_of(source)) {
-        const Vec3 own = quadric->own_uniform(position_sample);
-        start = on_quadric(*quadric, own);
-        area = quadric->own_area() * quadric->stretch(own);
-    } else {
-        start = on_mesh(one, position_sample);
-    }
+    auto [start, area] =
+        on_shape(source, [&](const auto& placed) { return this->start(one, placed, position_sample); });
     if (source.two_sided) {
         sides = 2;
         const bool back = direction_sample.x >= 0.5f;

@@ -15,9 +15,9 @@
 #include "core/scene/lamps/ball_lamp.hpp"
 #include "core/scene/lamps/lamp_balls.hpp"
 #include "core/scene/lamps/light_tree.hpp"
+#include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
-#include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
 #include "core/scene/surfaces/surface.hpp"
 
@@ -90,31 +90,47 @@ private:
         std::uint32_t primitive = 0;
         float u = 0, v = 0;
     };
-    void add_mesh(std::uint32_t shape, const Mesh& mesh);
+    /// What begins a light path: `area` is that of the lamp as if all of it were as stretched as there, m².
+    struct Start {
+        PointOnLamp point;
+        float area;
+    };
+    void add(std::uint32_t shape, const Mesh* mesh);
+    void add(std::uint32_t shape, const Sphere* ball);
+    void add(std::uint32_t shape, const PlacedQuadric& quadric);
     static std::optional<Facet> parallelogram(const Facet& first, const Facet& second);
     void add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32_t facets);
-    const Mesh& mesh_of(const Source& source) const { return std::get<Mesh>(data_.shapes[source.shape].geometry); }
-    const Sphere* ball_of(const Source& source) const {
-        return std::get_if<Sphere>(&data_.shapes[source.shape].geometry);
+    /// Calls `use` with the shape that it is.
+    template <class Use>
+    auto on_shape(const Source& source, const Use& use) const {
+        return std::visit(use, shading_.placed(source.shape));
     }
-    const PlacedQuadric* quadric_of(const Source& source) const { return shading_.quadric(source.shape); }
-    bool is_mesh(const Source& source) const {
-        return std::holds_alternative<Mesh>(data_.shapes[source.shape].geometry);
-    }
+    /// Of what is one lamp for each triangle.
+    const Mesh& mesh_of(const Source& source) const { return *std::get<const Mesh*>(shading_.placed(source.shape)); }
     Lamp lamp(std::size_t index) const;
     Rgb mean_of_texture(const Lamp& lamp) const;
     Rgb texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const;
     Rgb radiance_at(const Source& source, const PointOnLamp& point) const;
     bool is_there(const Source& source, const PointOnLamp& point) const;
     Facet facet_of(const Lamp& lamp, std::uint32_t& primitive, float& u) const;
-    std::optional<FlatLamp> flat(const Lamp& lamp) const;
-    BallLamp ball(const Lamp& lamp) const;
-    PointOnLamp on_mesh(const Lamp& lamp, Vec2 u) const;
-    PointOnLamp on_sphere(const Sphere& ball, Vec3 outwards) const;
-    PointOnLamp on_quadric(const PlacedQuadric& quadric, Vec3 own) const;
-    std::optional<LightSample> from_mesh(const Lamp& lamp, Vec3 from, Vec2 u) const;
-    std::optional<LightSample> from_sphere(const Lamp& lamp, Vec3 from, Vec2 u) const;
-    std::optional<LightSample> from_quadric(const Lamp& lamp, Vec3 from, Vec2 u) const;
+    float area(const Source& source, const Mesh* mesh) const;
+    float area(const Source& source, const Sphere* ball) const;
+    float area(const Source& source, const PlacedQuadric& quadric) const;
+    EvenLamp even(const Lamp& lamp, const Mesh* mesh) const;
+    EvenLamp even(const Lamp& lamp, const Sphere* ball) const;
+    EvenLamp even(const Lamp& lamp, const PlacedQuadric& quadric) const;
+    static BallLamp ball_lamp(const Lamp& lamp, const Sphere& ball);
+    static PointOnLamp on_sphere(const Sphere& ball, Vec3 outwards);
+    static PointOnLamp on_quadric(const PlacedQuadric& quadric, Vec3 own);
+    Start start(const Lamp& lamp, const Mesh* mesh, Vec2 u) const;
+    Start start(const Lamp& lamp, const Sphere* ball, Vec2 u) const;
+    Start start(const Lamp& lamp, const PlacedQuadric& quadric, Vec2 u) const;
+    std::optional<LightSample> sample(const Lamp& lamp, const Mesh* mesh, Vec3 from, Vec2 u) const;
+    std::optional<LightSample> sample(const Lamp& lamp, const Sphere* ball, Vec3 from, Vec2 u) const;
+    std::optional<LightSample> sample(const Lamp& lamp, const PlacedQuadric& quadric, Vec3 from, Vec2 u) const;
+    LightBounds bounds(const Lamp& lamp, const Mesh* mesh, float radiance) const;
+    LightBounds bounds(const Lamp& lamp, const Sphere* ball, float radiance) const;
+    LightBounds bounds(const Lamp& lamp, const PlacedQuadric& quadric, float radiance) const;
 
     const SceneData& data_;
     const Shading& shading_;

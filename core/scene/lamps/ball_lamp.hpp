@@ -9,7 +9,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/scene/surfaces/ball.hpp"
+#include "core/scene/shapes/ball.hpp"
 
 namespace lightnet {
 

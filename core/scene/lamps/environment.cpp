@@ -1,8 +1,8 @@
 #include "core/scene/lamps/environment.hpp"
 
 #include "core/base/math/sampling.hpp"
+#include "core/base/math/sky_layout.hpp"
 #include "core/scene/lamps/shares.hpp"
-#include "core/scene/lamps/sky_layout.hpp"
 
 #include <algorithm>
 #include <array>

@@ -13,8 +13,8 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
-#include "core/scene/surfaces/ray.hpp"
 
 namespace lightnet {
 

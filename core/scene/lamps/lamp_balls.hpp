@@ -1,11 +1,11 @@
-// Where shapes that shine are, as rays see them.
+// Balls around the shapes that shine, to be missed by most rays.
 #pragma once
 
 #include <cstddef>
 
 #include "core/base/math/columns.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/shapes/ray.hpp"
 
 namespace lightnet {
 

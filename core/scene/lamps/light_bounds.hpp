@@ -1,4 +1,4 @@
-// What is known of lights where one of them is chosen.
+// Bounds of lights, where one of them is chosen.
 #pragma once
 
 #include <cstdint>

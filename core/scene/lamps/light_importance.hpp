@@ -1,4 +1,4 @@
-// How much light may come to a point from lights that are known by their bounds: eight of either at once.
+// Bounds of the light that comes to a point from lights known by their bounds: eight of either at once.
 #pragma once
 
 #include <cmath>

@@ -17,8 +17,8 @@
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/lamps/lit_point.hpp"
 #include "core/scene/lamps/suns.hpp"
+#include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
-#include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
 #include "core/scene/surfaces/surface.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/base/math/vec.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 
 namespace lightnet {
 

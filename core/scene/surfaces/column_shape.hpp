@@ -1,4 +1,4 @@
-// What is known of a shape whose points are shaded many at once.
+// A shape whose points are shaded many at once.
 #pragma once
 
 #include <cstdint>

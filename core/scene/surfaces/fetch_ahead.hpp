@@ -1,4 +1,4 @@
-// What will soon be read of meshes, brought into the cache: of many triangles at once, so that their ways through memory
+// Prefetches of what will soon be read of meshes: of many triangles at once, so that their ways through memory
 // are waited for together. Inlined always, as compilers leave out calls of functions that do nothing else.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How two ways to find light share it.
+// Weights of multiple importance sampling: two ways to find light share it.
 #pragma once
 
 namespace lightnet {

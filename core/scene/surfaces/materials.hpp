@@ -1,4 +1,4 @@
-// From materials as data to scattering at a point.
+// Materials made ready: from data to scattering at a point.
 #pragma once
 
 #include <concepts>

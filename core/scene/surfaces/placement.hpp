@@ -1,4 +1,4 @@
-// Where an instance of an object stands.
+// The place of an instance of an object.
 #pragma once
 
 #include <array>

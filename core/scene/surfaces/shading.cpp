@@ -3,7 +3,7 @@
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/random.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/scene/surfaces/ball.hpp"
+#include "core/scene/shapes/ball.hpp"
 #include "core/scene/surfaces/bumps.hpp"
 #include "core/scene/surfaces/fetch_ahead.hpp"
 #include "core/scene/surfaces/triangle.hpp"
@@ -28,10 +28,12 @@ float longest_edge(const Mesh& mesh) {
 }
 
 // What a shape's size rounds, wherever it stands.
-float least_offset(const Shape& shape) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return ball_offset(sphere->radius);
-    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-    return mesh ? triangle_offset(longest_edge(*mesh)) : 0;
+float least_offset(const Mesh* mesh) { return triangle_offset(longest_edge(*mesh)); }
+float least_offset(const Sphere* sphere) { return ball_offset(sphere->radius); }
+float least_offset(const PlacedQuadric&) { return 0; }  // it has one for each point
+
+float least_offset(const PlacedShape& shape) {
+    return std::visit([](const auto& one) { return least_offset(one); }, shape);
 }
 
 /// By triangle: its turned_offset(). None: no more than `least`, all of them.
@@ -96,13 +98,32 @@ OnSphere laid_on(const Sphere& sphere, Vec3 outwards) {
             {around, (z * width - outside * own.z) * (pi * sphere.radius)}};
 }
 
+TexturePlace coordinates_on(const Mesh* mesh, std::uint32_t primitive, Vec2 at) {
+    const auto [a, b, c] = uvs_of(*mesh, primitive);
+    const float u = at.x, v = at.y, w = 1 - u - v;
+    TexturePlace place{a * w + b * u + c * v, {1, 1, 1}};
+    place.second_uv = second_uv_at(*mesh, primitive, u, v);
+    if (mesh->colours.empty()) return place;
+    const auto [i, j, k] = mesh->triangles[primitive];
+    place.vertex_colour = mesh->colours[i] * w + mesh->colours[j] * u + mesh->colours[k] * v;
+    return place;
+}
+TexturePlace coordinates_on(const Sphere* sphere, std::uint32_t, Vec2 at) {
+    return {laid_on(*sphere, from_octahedral(at)).uv, {1, 1, 1}};
+}
+TexturePlace coordinates_on(const PlacedQuadric& quadric, std::uint32_t, Vec2 at) {
+    return {quadric.uv(quadric.own_point(at)), {1, 1, 1}};
+}
+
 }  // namespace
 
 Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
     for (const auto& instance : data.instances) placements_.emplace_back(instance.to_world);
+    placed_.reserve(data.shapes.size());
     for (const auto& shape : data.shapes) {
-        needs_.push_back({materials_.needs(shape.material), least_offset(shape), std::get_if<Mesh>(&shape.geometry),
-                          materials_.lobes(shape.material)});
+        placed_.push_back(lightnet::placed(shape.geometry));
+        needs_.push_back({materials_.needs(shape.material), least_offset(placed_.back()),
+                          std::get_if<Mesh>(&shape.geometry), materials_.lobes(shape.material)});
         needs_.back().turned = turned_offsets(shape, needs_.back().offset);
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
         const auto by_place = [&](const std::optional<TextureId>& texture) {
@@ -111,8 +132,6 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
         needs_.back().place =
             by_place(data.materials[shape.material].opacity) || (shape.emission && by_place(shape.emission->texture));
         column_shapes_.push_back(column_shape(shape, needs_.back()));
-        const auto* quadric = std::get_if<Quadric>(&shape.geometry);
-        quadrics_.push_back(quadric ? std::make_unique<const PlacedQuadric>(*quadric) : nullptr);
     }
 }
 
@@ -142,12 +161,8 @@ void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, flo
     point.u = u;
     point.v = v;
     const Needs& needs = needs_[geometry];
-    if (needs.mesh)
-        on_mesh(needs, point);
-    else if (const auto* sphere = std::get_if<Sphere>(&data_.shapes[geometry].geometry))
-        on_sphere(*sphere, needs, point);
-    else
-        on_quadric(*quadrics_[geometry], needs, point);
+    if (needs.mesh) return find_on(needs.mesh, needs, point);  // first, as nearly all are
+    std::visit([&](const auto& shape) { find_on(shape, needs, point); }, placed_[geometry]);
 }
 
 void Shading::find(const Hit& hit, SurfacePoint& point) const {
@@ -172,8 +187,8 @@ void Shading::expect(std::span<const std::optional<Hit>> hits) const {
     each_triangle([](const Mesh& mesh, std::uint32_t triangle) { fetch_corners(mesh, triangle); });
 }
 
-void Shading::on_mesh(const Needs& needs, SurfacePoint& point) const {
-    const Mesh& mesh = *needs.mesh;
+void Shading::find_on(const Mesh* on, const Needs& needs, SurfacePoint& point) const {
+    const Mesh& mesh = *on;
     const Corners at = corners(mesh, point.primitive);
     Vec3 interpolated;
     if (!mesh.normals.empty()) {
@@ -207,7 +222,8 @@ void Shading::dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) c
     if (grooves) point.shading = frame_along(point.shading.z, along.u);
 }
 
-void Shading::on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const {
+void Shading::find_on(const Sphere* on, const Needs& needs, SurfacePoint& point) const {
+    const Sphere& sphere = *on;
     const Vec3 outwards = from_octahedral({point.u, point.v});
     point.position = on_ball(sphere.center, sphere.radius, outwards);
     point.normal = sphere.flip_normals ? -outwards : outwards;
@@ -223,7 +239,7 @@ void Shading::on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& 
     if (needs.material.grooves) point.shading = frame_along(point.normal, along.u);
 }
 
-void Shading::on_quadric(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const {
+void Shading::find_on(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const {
     const Vec3 own = quadric.own_point({point.u, point.v});
     point.position = quadric.position(own);
     point.normal = quadric.normal(own);
@@ -245,20 +261,7 @@ TexturePlace Shading::place(std::uint32_t geometry, std::uint32_t primitive, flo
 }
 
 TexturePlace Shading::coordinates(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
-    const auto& shape = data_.shapes[geometry].geometry;
-    if (const auto* sphere = std::get_if<Sphere>(&shape))
-        return {laid_on(*sphere, from_octahedral({u, v})).uv, {1, 1, 1}};
-    if (const PlacedQuadric* quadric = quadrics_[geometry].get())
-        return {quadric->uv(quadric->own_point({u, v})), {1, 1, 1}};
-    const auto& mesh = std::get<Mesh>(shape);
-    const auto [a, b, c] = uvs_of(mesh, primitive);
-    const float w = 1 - u - v;
-    TexturePlace place{a * w + b * u + c * v, {1, 1, 1}};
-    place.second_uv = second_uv_at(mesh, primitive, u, v);
-    if (mesh.colours.empty()) return place;
-    const auto [i, j, k] = mesh.triangles[primitive];
-    place.vertex_colour = mesh.colours[i] * w + mesh.colours[j] * u + mesh.colours[k] * v;
-    return place;
+    return std::visit([&](const auto& shape) { return coordinates_on(shape, primitive, {u, v}); }, placed_[geometry]);
 }
 
 float Shading::opacity_at(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {

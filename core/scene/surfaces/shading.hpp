@@ -1,19 +1,18 @@
-// From the name of a surface point to all that shading needs.
+// Surface points made ready for shading, from their names.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/shapes/ray.hpp"
+#include "core/scene/shapes/shape.hpp"
 #include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/materials.hpp"
-#include "core/scene/surfaces/placed_quadric.hpp"
 #include "core/scene/surfaces/placement.hpp"
-#include "core/scene/surfaces/ray.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/textures/look_up.hpp"
 
@@ -64,8 +63,8 @@ public:
     TexturePlace place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
     /// What textures may depend on there, but for where the point is.
     TexturePlace coordinates(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
-    /// Null: the shape is none.
-    const PlacedQuadric* quadric(std::uint32_t geometry) const { return quadrics_[geometry].get(); }
+    /// How points of a shape are found.
+    const PlacedShape& placed(std::uint32_t geometry) const { return placed_[geometry]; }
     /// Can rays go through the shape? Only then the next two need to be asked.
     bool has_holes(std::uint32_t geometry) const { return needs_[geometry].material.holes; }
     /// Share of the light that meets the surface there, 0 … 1.
@@ -85,19 +84,18 @@ private:
     };
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
     ColumnShape column_shape(const Shape& shape, const Needs& needs) const;
-    void on_mesh(const Needs& needs, SurfacePoint& point) const;
+    void find_on(const Mesh* mesh, const Needs& needs, SurfacePoint& point) const;
+    void find_on(const Sphere* sphere, const Needs& needs, SurfacePoint& point) const;
+    void find_on(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const;
     /// Adds what textures, grooves and bumps need.
     void dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
-    void on_sphere(const Sphere& sphere, const Needs& needs, SurfacePoint& point) const;
-
-    void on_quadric(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const;
 
     const SceneData& data_;
     Materials materials_;
     std::vector<Placement> placements_;  // by instance
     std::vector<Needs> needs_;           // by shape
     std::vector<ColumnShape> column_shapes_;
-    std::vector<std::unique_ptr<const PlacedQuadric>> quadrics_;  // by shape
+    std::vector<PlacedShape> placed_;  // by shape
 };
 
 }  // namespace lightnet

@@ -1,12 +1,12 @@
 // A point of a surface, with all that shading needs to know of it.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "core/base/math/frame.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/scene/shapes/offset.hpp"
 #include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
@@ -35,26 +35,6 @@ inline TexturePlace place_of(const SurfacePoint& point) {
     return {point.uv, point.vertex_colour, point.position, point.normal, point.second_uv};
 }
 
-inline float largest_coordinate(Vec3 v) {
-    const float x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z), xy = x > y ? x : y;
-    return xy > z ? xy : z;
-}
-inline Vec3 magnitudes(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
-
-/// How far a number may lie from what was rounded to it, over its size.
-inline constexpr float rounding_step = 0x1p-24f;
-
-/// DECISIONS: tight-offsets
-/// Along `normal`, beyond what is rounded where coordinates are as large as those of `position`: once in the point,
-/// once in the start of its ray, and twice that for safety. `own`: the same of the shape, wherever it stands.
-inline float offset_at(Vec3 position, Vec3 normal, float own) {
-    return 4 * rounding_step * dot(magnitudes(position), magnitudes(normal)) + own;
-}
-
-/// A ray's start, that far off a surface.
-inline Vec3 off_surface(Vec3 position, Vec3 normal, float offset, Vec3 direction) {
-    return position + normal * (dot(direction, normal) < 0 ? -offset : offset);
-}
 inline Vec3 SurfacePoint::origin_towards(Vec3 direction) const {
     return off_surface(position, normal, offset, direction);
 }

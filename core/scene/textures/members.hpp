@@ -1,4 +1,4 @@
-// How to look at the members of all that stands in a scene, without naming them again.
+// Visits to the members of all that stands in a scene, without naming them again.
 //
 // Each type lists its members once, beside itself, in a function visit_members() that takes the type apart completely:
 // a member that is missing there does not compile. What a list is shown to may be constant or not.

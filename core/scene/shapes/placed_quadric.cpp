@@ -1,7 +1,7 @@
-#include "core/scene/surfaces/placed_quadric.hpp"
+#include "core/scene/shapes/placed_quadric.hpp"
 
 #include "core/base/math/sampling.hpp"
-#include "core/scene/surfaces/ball.hpp"
+#include "core/scene/shapes/ball.hpp"
 
 #include <algorithm>
 

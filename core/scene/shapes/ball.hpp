@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/math/wide_vec.hpp"
-#include "core/scene/surfaces/surface.hpp"
+#include "core/scene/shapes/offset.hpp"
 
 namespace lightnet {
 

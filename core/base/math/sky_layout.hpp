@@ -1,4 +1,4 @@
-// How directions lie in an image of everything around: two layouts, in the environment's own axes.
+// Two layouts of all directions in an image, in the environment's own axes.
 #pragma once
 
 #include <algorithm>

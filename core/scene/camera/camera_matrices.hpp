@@ -1,18 +1,19 @@
-// Where points of the world are in a picture, as matrices: for the headers of pictures.
+// Matrices from the world to the picture, for the headers of pictures.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/base/math/transform.hpp"
-#include "core/scene/data/scene_data.hpp"
+#include "core/scene/camera/camera_data.hpp"
 
 namespace lightnet {
 
 /// Both take points of the world (scene units).
 struct CameraMatrices {
-    Matrix to_camera;  // x to the right, y up, z ahead
-    Matrix to_ndc;     // after division by w: x and y from 0, 0 in the picture's upper left corner to 1, 1 in its lower
-                       // right one; z is the depth times w
+    Matrix to_camera;              // x to the right, y up, z ahead
+    std::optional<Matrix> to_ndc;  // after division by w: x and y from 0, 0 in the picture's upper left corner to 1, 1
+                                   // in its lower right one; z is the depth times w. None: the picture is not flat
 };
 
 /// For a picture of that size. The same convention as OpenEXR's worldToCamera and worldToNDC, but for columns of

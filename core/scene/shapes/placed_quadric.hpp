@@ -8,7 +8,7 @@
 #include "core/base/math/box.hpp"
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/scene/data/scene_data.hpp"
+#include "core/scene/shapes/quadric.hpp"
 
 namespace lightnet {
 
