@@ -1,4 +1,4 @@
-// How open the surroundings of a point are.
+// Ambient occlusion: the openness of a point's surroundings.
 #include <limits>
 
 #include "core/base/math/samples.hpp"

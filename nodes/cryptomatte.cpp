@@ -1,4 +1,4 @@
-// Which objects, materials or lamps are seen in each pixel, for compositing.
+// Cryptomatte: the objects, materials or lamps seen in each pixel, for compositing.
 #include <memory>
 #include <vector>
 

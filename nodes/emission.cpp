@@ -1,4 +1,4 @@
-// What shines by itself.
+// Emission: the light of what shines by itself.
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"

@@ -1,4 +1,4 @@
-// How bright a guide takes it to be.
+// The radiance that a guide has learnt, as a picture.
 #include <memory>
 
 #include "core/estimate/light_guide.hpp"

@@ -1,4 +1,4 @@
-// How densely the photons of a map lie.
+// The density of a map's photons, as a picture.
 #include <memory>
 
 #include "core/base/math/sampling.hpp"

@@ -1,4 +1,4 @@
-// Where the photons of a map lie.
+// The positions of a map's photons, as a picture.
 #include <memory>
 
 #include "core/estimate/photon_tree.hpp"

@@ -1,4 +1,4 @@
-// Where the records of an irradiance cache lie.
+// The positions of an irradiance cache's records, as a picture.
 #include <memory>
 
 #include "core/estimate/irradiance_octree.hpp"

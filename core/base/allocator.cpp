@@ -1,4 +1,4 @@
-// How programs keep their memory: jemalloc reads this before main() begins. One thread of its own is enough, and takes
+// Memory of programs: jemalloc reads this before main() begins. One thread of its own is enough, and takes
 // none from those whose number is limited when it is least expected.
 // DECISIONS: memory-in-large-pages
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// How much of the machine this process may use: a container, Slurm and taskset give a part of it.
+// The part of the machine that this process may use: a container, Slurm and taskset give a part of it.
 #pragma once
 
 #include <cstdint>

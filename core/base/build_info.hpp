@@ -1,4 +1,4 @@
-// Which lightnet this is.
+// The name of this build.
 #pragma once
 
 #include <string>

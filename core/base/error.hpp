@@ -1,4 +1,4 @@
-// How things go wrong in words.
+// Errors in words: the user's, a node's, the machine's.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// What an OpenEXR file says of itself, looked at before a library takes memory for it.
+// The claims of an OpenEXR file's header, checked before a library takes memory for them.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What is agreed on groups of lamps.
+// Groups of lamps, by number and as sets.
 #pragma once
 
 #include <cstddef>

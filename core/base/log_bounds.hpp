@@ -1,4 +1,4 @@
-// How much is said of what anybody can cause.
+// Bounds for log lines that anybody can cause.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What programs that run for long say of themselves.
+// Log entries of programs that run for long.
 #pragma once
 
 #include <cstdint>

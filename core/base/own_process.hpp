@@ -1,4 +1,4 @@
-// What this process takes of the machine: for reports and metrics. Nothing that is computed depends on it.
+// Figures of this process, for reports and metrics. Nothing that is computed depends on them.
 #pragma once
 
 #include <cstdint>

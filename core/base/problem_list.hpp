@@ -1,4 +1,4 @@
-// What is wrong with something that a stranger may have made: told, but not without end.
+// A bounded list of problems, of something that a stranger may have made.
 #pragma once
 
 #include <cstddef>

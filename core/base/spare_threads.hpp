@@ -1,4 +1,4 @@
-// Whether the system has threads left for us. Some libraries end the process when they get none, so it's tried
+// A trial of whether the system has threads left. Some libraries end the process when they get none, so it's tried
 // beforehand.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Where this process runs: for display, and for budgets. Nothing that is computed may depend on it.
+// This machine: for display, and for budgets. Nothing that is computed may depend on it.
 #pragma once
 
 #include <cstdint>

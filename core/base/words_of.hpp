@@ -1,4 +1,4 @@
-// What an exception says, to people.
+// The words of an exception, for people.
 #pragma once
 
 #include <exception>

@@ -1,4 +1,4 @@
-// Where light has to leave its lamps to be of use: learnt from trials.
+// A map of where light has to leave its lamps to be of use, learnt from trials.
 #pragma once
 
 #include <array>

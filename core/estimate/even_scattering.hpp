@@ -1,4 +1,4 @@
-// What surfaces make of light that arrives evenly, from all directions alike.
+// Directional albedo: the answer of surfaces to light that arrives evenly, from all directions alike.
 #pragma once
 
 #include <cstdint>

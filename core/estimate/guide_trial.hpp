@@ -1,4 +1,4 @@
-// Whether guided paths find more for the same work.
+// A trial of whether guided paths find more for the same work.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where light comes from, as it was learnt: path guiding.
+// Path guiding: the directions from which light comes, as they were learnt.
 #pragma once
 
 #include <array>

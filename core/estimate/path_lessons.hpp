@@ -1,4 +1,4 @@
-// What a guide learns from paths, once they have ended.
+// Records that a guide learns from, made of paths once they have ended.
 #pragma once
 
 #include <cstddef>

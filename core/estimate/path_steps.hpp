@@ -1,4 +1,4 @@
-// How paths go on from where they have come to: the larger members of PathVertices, whose header ends with them.
+// Steps of paths from one surface to the next: the larger members of PathVertices, whose header ends with them.
 #pragma once
 
 #include "core/estimate/path_vertices.hpp"

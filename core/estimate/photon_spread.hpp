@@ -1,4 +1,4 @@
-// How much of the disc over which a photon is spread is surface.
+// The part of a photon's disc that lies on surfaces.
 #pragma once
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/math/rgb.hpp"
-#include "core/scene/surfaces/ray.hpp"
+#include "core/scene/shapes/ray.hpp"
 
 namespace lightnet {
 

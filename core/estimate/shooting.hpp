@@ -1,4 +1,4 @@
-// How nodes have photons sent: their parameters, and the work on all places.
+// Photon shooting, as nodes ask for it: its parameters, and the work on all places.
 #pragma once
 
 #include <cstddef>

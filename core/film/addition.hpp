@@ -1,4 +1,4 @@
-// How what tiles have of a pixel becomes one.
+// The fold by which samples of a pixel become one: colours are added, ids are merged.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How far a picture is from another one, in numbers with a meaning.
+// Measures of how far one picture is from another.
 #pragma once
 
 #include <cstdint>

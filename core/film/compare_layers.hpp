@@ -1,4 +1,4 @@
-// How far a picture is from another one, layer by layer.
+// Measures of how far one file is from another, layer by layer.
 #pragma once
 
 #include <string>

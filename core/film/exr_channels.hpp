@@ -1,4 +1,4 @@
-// What channels and attributes of our EXR files are called: for those who write and read them.
+// Names of channels and attributes of our EXR files, for those who write and read them.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where the picture grows: takes tiles in any order and gives the same bytes.
+// The film: takes tiles in any order and gives the same bytes.
 #pragma once
 
 #include <algorithm>

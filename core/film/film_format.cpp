@@ -1,4 +1,4 @@
-// Which colours a pixel of a film has.
+// Colours that a pixel of a film has.
 #include <algorithm>
 #include <numeric>
 

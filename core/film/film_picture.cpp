@@ -1,4 +1,4 @@
-// What is on a film, as a picture.
+// The picture of a film.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,4 +1,4 @@
-// How much of each layer is in the beauty, chosen after rendering: light is linear.
+// Gains of layers in the beauty, chosen after rendering: light is linear.
 #pragma once
 
 #include <string>

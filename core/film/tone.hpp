@@ -1,4 +1,4 @@
-// Whether a picture can be seen in its PNG, and by which exposure it could.
+// A check of whether a picture can be seen in its PNG, and the exposure by which it could.
 #pragma once
 
 #include <optional>

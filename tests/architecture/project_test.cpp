@@ -64,6 +64,10 @@ TEST(Project, HasCommentsWithASubjectOfTheirOwn) {
     EXPECT_THAT(all_complaints(product(), borrowed_subjects), IsEmpty());
 }
 
+TEST(Project, HasHeadsOfFilesThatSayWhatTheyHold) {
+    EXPECT_THAT(all_complaints(product(), questions_for_heads), IsEmpty());
+}
+
 TEST(Project, HasDocumentsThatShowItsCode) {
     for (const char* document : {"README.md", "CONTRIBUTING.md"})
         EXPECT_THAT(stale_cuts(read(document), all_files()), IsEmpty());

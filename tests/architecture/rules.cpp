@@ -228,6 +228,12 @@ Complaints borrowed_subjects(const SourceFile& file) {
     return complaints;
 }
 
+Complaints questions_for_heads(const SourceFile& file) {
+    static const std::regex pattern(R"(^// (What|Who|Whoever|Whose|How|Where|Which|When|Whether|From)\b)");
+    if (!std::regex_search(file.text, pattern, std::regex_constants::match_continuous)) return {};
+    return {at_line(file, 1, "a noun says what the file holds, not a question")};
+}
+
 Complaints too_long(const SourceFile& file, std::size_t most_lines) {
     const std::size_t lines = lines_of(file.text).size();
     if (lines <= most_lines) return {};

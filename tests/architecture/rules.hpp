@@ -36,6 +36,9 @@ Complaints bad_header(const SourceFile& file);
 /// Comments whose subject stands in another one: "The same …" says nothing where it is shown alone.
 Complaints borrowed_subjects(const SourceFile& file);
 
+/// A head of a file that begins with a question ("What …", "How …") where a noun should say what the file holds.
+Complaints questions_for_heads(const SourceFile& file);
+
 /// A file of more lines than the house allows.
 Complaints too_long(const SourceFile& file, std::size_t most_lines);
 

@@ -191,5 +191,12 @@ TEST(Comments, HaveASubjectOfTheirOwn) {
                 IsEmpty());
 }
 
+TEST(Heads, SayWhatAFileHolds) {
+    EXPECT_THAT(questions_for_heads({"core/a.hpp", "// How far it is.\n"}),
+                ElementsAre("core/a.hpp:1: a noun says what the file holds, not a question"));
+    EXPECT_THAT(questions_for_heads({"core/a.hpp", "// The distance.\n// How far it is.\n"}), IsEmpty());
+    EXPECT_THAT(questions_for_heads({"core/a.hpp", "#pragma once\n// How far it is.\n"}), IsEmpty());
+}
+
 }  // namespace
 }  // namespace lightnet::house

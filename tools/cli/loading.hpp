@@ -1,4 +1,4 @@
-// From the names of files to what may run.
+// Loading: from the names of files to what may run.
 #pragma once
 
 #include <iosfwd>

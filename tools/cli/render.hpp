@@ -1,4 +1,4 @@
-// What `lightnet render` makes of a scene file: a graph, which then runs like any other.
+// The graph that `lightnet render` makes of a scene file, which then runs like any other.
 #pragma once
 
 #include <array>

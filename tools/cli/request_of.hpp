@@ -1,4 +1,4 @@
-// From what the user typed to a run that is ready to go.
+// The request for a run, made of what the user typed.
 #pragma once
 
 #include "tools/cli/launcher.hpp"

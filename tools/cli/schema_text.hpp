@@ -1,4 +1,4 @@
-// What graphs can be made of, for programs: editors, checkers of Lua, scripts.
+// The schema of graphs as text for programs: editors, checkers of Lua, scripts.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the user has settled once for all: of options that a command line leaves open, the environment decides, then the
+// The user's settings: of options that a command line leaves open, the environment decides, then the
 // file of settings, then what is built in.
 #pragma once
 

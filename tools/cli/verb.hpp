@@ -1,4 +1,4 @@
-// What a verb of the launcher is: `lightnet NAME ...`. To add one, see tools/CMakeLists.txt.
+// A verb of the launcher: `lightnet NAME ...`. To add one, see tools/CMakeLists.txt.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What a daemon says: where it listens, its log, and why it ends.
+// The words of a daemon: where it listens, its log, and why it ends.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the user of lightnetd typed.
+// Options of lightnetd.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a daemon does, for Prometheus.
+// Metrics of a daemon, for Prometheus.
 #pragma once
 
 #include <chrono>

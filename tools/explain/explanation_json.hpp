@@ -1,4 +1,4 @@
-// What is told of a pixel, for programs.
+// The explanation of a pixel, for programs.
 #pragma once
 
 #include <cstddef>

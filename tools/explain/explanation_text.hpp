@@ -1,4 +1,4 @@
-// What is told of a pixel, for people.
+// The explanation of a pixel, for people.
 #pragma once
 
 #include <cstddef>

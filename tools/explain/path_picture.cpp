@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/scene/camera.hpp"
+#include "core/scene/camera/camera.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

@@ -1,4 +1,4 @@
-// How a pixel came about: its samples, computed again alone.
+// The account of a pixel: its samples, computed again alone.
 #pragma once
 
 #include <cstdint>

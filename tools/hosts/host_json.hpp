@@ -1,4 +1,4 @@
-// What `lightnet hosts --json` prints.
+// The output of `lightnet hosts --json`.
 #pragma once
 
 #include <string>

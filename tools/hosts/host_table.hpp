@@ -1,4 +1,4 @@
-// What `lightnet hosts` prints.
+// The output of `lightnet hosts`.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What `lightnet compare` does.
+// The work of `lightnet compare`.
 #pragma once
 
 #include <iosfwd>

@@ -1,4 +1,4 @@
-// How far a picture is from a reference while it is rendered.
+// The curve of a picture's error against a reference while it is rendered.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where files go that a run writes, and where none may go.
+// Rules for where a run may write its files.
 #pragma once
 
 #include <string>

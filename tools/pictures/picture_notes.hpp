@@ -1,4 +1,4 @@
-// What the file of a picture says of it beside its pixels.
+// Notes in the file of a picture, beside its pixels.
 #pragma once
 
 #include <cstdint>

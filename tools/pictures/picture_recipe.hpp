@@ -1,4 +1,4 @@
-// What a picture is made of, in names and values.
+// The recipe of a picture, in names and values.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What `lightnet remix` and `lightnet fit` share: pictures whose layers are mixed anew.
+// Pictures whose layers are mixed anew: shared by `lightnet remix` and `lightnet fit`.
 #pragma once
 
 #include <iosfwd>

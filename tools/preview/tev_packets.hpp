@@ -1,4 +1,4 @@
-// What the picture viewer tev is told, packet by packet.
+// Packets of the picture viewer tev.
 #pragma once
 
 #include <span>

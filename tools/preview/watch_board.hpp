@@ -1,4 +1,4 @@
-// What a run shows to those who watch it: written by the run's thread, read by the server's.
+// The board of a run for those who watch it: written by the run's thread, read by the server's.
 #pragma once
 
 #include <atomic>

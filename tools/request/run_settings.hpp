@@ -1,4 +1,4 @@
-// What a request for a run amounts to, before anything is rendered.
+// Settings of a run, made of its request before anything is rendered.
 #pragma once
 
 #include "core/film/film.hpp"

@@ -1,4 +1,4 @@
-// What those who watch a rendering see of it, and what they may do to it.
+// The view of a rendering for those who watch it, and what they may do to it.
 #include <string>
 
 #include "core/base/in_quotes.hpp"

@@ -1,4 +1,4 @@
-// How a run gets from step to step, and how far it is from a reference then.
+// The steps of a run, and its distance from a reference at each.
 #include <fmt/format.h>
 
 #include <algorithm>

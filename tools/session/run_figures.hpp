@@ -1,4 +1,4 @@
-// What places did, put together for the report.
+// Figures of all places, put together for the report.
 #pragma once
 
 #include <vector>

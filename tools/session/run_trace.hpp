@@ -1,4 +1,4 @@
-// What all places of a run were busy with, as a file that Perfetto and Chrome's tracing page open.
+// The trace of a run, as a file that Perfetto and Chrome's tracing page open.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the command lines of all our programs have in common: how mistakes are told, and how help ends.
+// Rules that the command lines of all our programs share: how mistakes are told, and how help ends.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What our programs tell the shell.
+// Exit codes of our programs.
 #pragma once
 
 namespace lightnet::exit_code {

@@ -1,4 +1,4 @@
-// What programs that run for long say to their log.
+// Log lines of programs that run for long.
 #pragma once
 
 #include <chrono>

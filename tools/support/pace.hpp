@@ -1,4 +1,4 @@
-// When something that takes time is due again.
+// A periodic timer for work that takes time itself.
 #pragma once
 
 #include <algorithm>

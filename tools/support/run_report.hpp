@@ -1,4 +1,4 @@
-// What a run did, for people and scripts: x.run.json.
+// The report of a run, for people and scripts: x.run.json.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a program prints is there, or its exit code says that it isn't.
+// Standard output that is checked: what a program prints is there, or its exit code says that it isn't.
 #pragma once
 
 #include <memory>

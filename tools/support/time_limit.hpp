@@ -1,4 +1,4 @@
-// How many samples there is time for.
+// The number of samples for which there is time.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How many places of a run were at work.
+// The number of places of a run that were at work.
 #pragma once
 
 #include <map>

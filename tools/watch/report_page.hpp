@@ -1,4 +1,4 @@
-// What a run did, as one page that needs neither network nor program.
+// The report of a run as one page that needs neither network nor program.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How a run stands, as a table for terminals.
+// The state of a run, as a table for terminals.
 #pragma once
 
 #include <array>

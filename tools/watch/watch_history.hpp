@@ -1,4 +1,4 @@
-// What a report remembers of a run.
+// The history of a run, as far as a report keeps it.
 #pragma once
 
 #include <chrono>

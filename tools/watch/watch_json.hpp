@@ -1,4 +1,4 @@
-// What the page is told, as text. A page and its launcher are of one build, so the words are nobody else's.
+// JSON for the page. A page and its launcher are of one build, so the words are nobody else's.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Which of the addresses of a host is called.
+// Turns in which the addresses of a host are called.
 #pragma once
 
 #include <chrono>

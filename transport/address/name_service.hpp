@@ -1,4 +1,4 @@
-// Who knows where machines are that have names.
+// The name service: addresses of machines that have names.
 #pragma once
 
 #include <memory>

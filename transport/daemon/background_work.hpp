@@ -1,4 +1,4 @@
-// What takes time, done in the background of a thread that must stay free to listen.
+// Background work of a thread that must stay free to listen.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What a host says to launchers, and does when they say something.
+// Control of a host by launchers: what they say, and what it does.
 #include <algorithm>
 #include <system_error>
 #include <utility>

@@ -1,4 +1,4 @@
-// Who is who at the door of a host.
+// Rights of those who call at a host's door.
 #pragma once
 
 #include <chrono>

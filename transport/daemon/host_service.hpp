@@ -1,4 +1,4 @@
-// What a host is made of. For the .cpp files of hosts.
+// The parts of a host. For the .cpp files of hosts.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Whose keys are let in.
+// The list of keys that are let in.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Where a key lies.
+// The file of a key.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What a cluster is made of. For its .cpp files.
+// The parts of a cluster. For its .cpp files.
 #pragma once
 
 #include <algorithm>

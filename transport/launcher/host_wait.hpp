@@ -1,4 +1,4 @@
-// How long a run waits for its hosts before the work begins.
+// The wait for hosts before the work begins.
 #pragma once
 
 #include <chrono>

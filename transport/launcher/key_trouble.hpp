@@ -1,4 +1,4 @@
-// What is wrong with keys, in words for who can mend it.
+// Troubles with keys, in words for who can mend them.
 #pragma once
 
 #include <optional>

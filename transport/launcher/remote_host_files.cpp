@@ -1,4 +1,4 @@
-// How a host gets the files of the job, and what others have prepared: in pieces, as many under way as its line takes.
+// Files of the job for a host, and what others have prepared: in pieces, as many under way as its line takes.
 #include <algorithm>
 
 #include "transport/launcher/remote_host.hpp"

@@ -1,4 +1,4 @@
-// When a worker that has died is started anew.
+// The delay before a worker that has died is started anew.
 #pragma once
 
 #include <chrono>

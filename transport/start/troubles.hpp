@@ -1,4 +1,4 @@
-// What local workers may be made to suffer, to see what a run does about it.
+// Faults that local workers may be given, to see what a run does about them.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What processes that share the folder of a cache need of it.
+// Claims of processes that share the folder of a cache.
 #pragma once
 
 #include <set>

@@ -1,4 +1,4 @@
-// Which blob was made by which recipe (the hash of all that it depends on), on disk.
+// The store of recipes on disk: which blob was made by which (the hash of all that it depends on).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What nodes have prepared, kept on the launcher's disk from run to run.
+// Results of preparing, kept on the launcher's disk from run to run.
 #pragma once
 
 #include <cstdint>

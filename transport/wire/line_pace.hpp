@@ -1,4 +1,4 @@
-// How fast a line is, and how much may be under way on it.
+// The pace of a line: how fast it is, and how much may be under way on it.
 #pragma once
 
 #include <chrono>

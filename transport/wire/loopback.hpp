@@ -1,4 +1,4 @@
-// Who can reach a port.
+// Addresses that only this machine can reach.
 #pragma once
 
 #include <string>

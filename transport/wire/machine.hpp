@@ -1,4 +1,4 @@
-// What a machine is, for display: nothing that is computed depends on it.
+// A description of a machine, for display: nothing that is computed depends on it.
 #pragma once
 
 #include <cstdint>

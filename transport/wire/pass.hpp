@@ -1,4 +1,4 @@
-// What a host shows to be let into a run: that it knows a secret of the run's user.
+// The proof that a host knows a secret of the run's user, by which it is let into a run.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Whose ask it is that leaves a process, so that the reply finds back; and whether it may go straight to its answerer.
+// The address of an ask that leaves a process, by which the reply finds back, and whether it needs a relay.
 #pragma once
 
 #include <cstddef>

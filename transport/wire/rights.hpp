@@ -1,4 +1,4 @@
-// Who may say what at a door that asks for keys: one table for all doors.
+// The table of who may say what at a door that asks for keys: one for all doors.
 #pragma once
 
 #include "transport/wire/packet.hpp"

@@ -1,4 +1,4 @@
-// Whether a door that asks for keys does so.
+// A trial of whether a door that asks for keys does so.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Who may come in at a door that strangers can reach.
+// The doorkeeper of a port that strangers can reach.
 #pragma once
 
 #include <chrono>

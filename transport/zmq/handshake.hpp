@@ -1,4 +1,4 @@
-// What becomes of the handshakes of a socket: ZeroMQ itself says nothing to who waits for an answer.
+// The outcome of handshakes of a socket: ZeroMQ itself says nothing to who waits for an answer.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Where doors listen.
+// Addresses at which doors listen.
 #include <cerrno>
 #include <charconv>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a picture is cleaned by: its colours in two halves, their noise, and features of what is seen.
+// The guide by which a picture is cleaned: its colours in two halves, their noise, and features of what is seen.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What a pixel would be if only its surroundings knew: a plane over features, fitted to what is alike.
+// A first-order regression around each pixel: a plane over features, fitted to what is alike.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How alike pixels are to those some way off, for a strip of pixels at a time.
+// Weights of pairs of pixels by how alike they are, for a strip of pixels at a time.
 #pragma once
 
 #include <array>

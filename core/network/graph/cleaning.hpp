@@ -1,4 +1,4 @@
-// What a graph renders beside its image so that noise can be taken out of it: film = { …, clean = true }.
+// Nodes that a graph renders beside its image so that noise can be taken out of it: film = { …, clean = true }.
 #pragma once
 
 #include <string>

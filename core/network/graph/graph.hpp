@@ -1,4 +1,4 @@
-// What a graph file says: a plain value.
+// A graph, as its file says it: a plain value.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What a hosts file says: where nodes run, and how often. A plain value.
+// A hosts file: where nodes run, and how often. A plain value.
 #pragma once
 
 #include <map>

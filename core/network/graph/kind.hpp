@@ -1,4 +1,4 @@
-// What a node can be: one kind, whose schema feeds validation, `describe` and the maker of the node.
+// A kind of node: its schema feeds validation, `describe` and the maker of the node.
 #pragma once
 
 #include <cstddef>

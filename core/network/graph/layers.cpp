@@ -1,4 +1,4 @@
-// Which layers an image has, and which node keeps which of them apart.
+// Layers of an image, and the node that keeps each of them apart.
 #include <algorithm>
 #include <cassert>
 

@@ -1,4 +1,4 @@
-// How the replicas of a node share what it has prepared: each has all of it, or a sector of the scene.
+// The layout of a node's replicas: each has all that was prepared, or a sector of the scene.
 #pragma once
 
 #include <array>

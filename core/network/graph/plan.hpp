@@ -1,4 +1,4 @@
-// Who runs what: computed from a graph and from the hosts that are there. A plain value.
+// The plan: who answers for which node, computed from a graph and from the hosts that are there. A plain value.
 #pragma once
 
 #include <compare>

@@ -1,4 +1,4 @@
-// Which plugins a graph needs: part of what hosts of one run must have in common.
+// Plugins that a graph needs: part of what hosts of one run must have in common.
 #pragma once
 
 #include <set>

@@ -1,4 +1,4 @@
-// How an asker chooses among the replicas of a node.
+// Strategies by which an asker chooses among the replicas of a node.
 #pragma once
 
 #include <array>

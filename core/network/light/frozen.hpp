@@ -1,4 +1,4 @@
-// What a node has learnt, in the hands of a node that takes it.
+// The frozen state of a node, in the hands of a node that takes it.
 #pragma once
 
 #include <memory>

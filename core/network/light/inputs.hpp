@@ -1,4 +1,4 @@
-// What a node's constructor is given to ask its inputs with.
+// The inputs that a node's constructor is given.
 #pragma once
 
 #include <cstddef>

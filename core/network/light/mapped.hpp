@@ -1,4 +1,4 @@
-// What Services::map() gives: the results of all shards.
+// Results of all shards of a Services::map().
 #pragma once
 
 #include <cstddef>

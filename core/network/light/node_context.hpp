@@ -1,4 +1,4 @@
-// What a node may know of the world when it is made.
+// The world, as far as a node may know it when it is made.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a shared library says of itself that brings kinds of nodes or formats of scenes: a plugin.
+// A plugin's word of itself: a shared library that brings kinds of nodes or formats of scenes.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a node could not answer well, noted down while a rehearsal is on.
+// Notes of a rehearsal: questions that a node could not answer well.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What nodes of one place work out together.
+// Values that nodes of one place work out together.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// What a node may use to prepare itself before the first question.
+// Services that a node may use to prepare itself before the first question.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a node may know of where it runs.
+// The surroundings of a node: places, hosts, process and memory.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How a sample came about: every question that nodes asked for it, and every ray that they traced.
+// The account of a sample: every question that nodes asked for it, and every ray that they traced.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What the nodes of a process say that they do while they prepare: for display.
+// Activities that the nodes of a process report while they prepare: for display.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How a host proves that it computes as we do: by behaviour.
+// The fingerprint by which a host proves that it computes as we do: by behaviour.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a place is at, for others to look at while it works.
+// The gauge of a place, for others to read while it works.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// What is to be computed: all that a host must know to take part in a run, and nothing of who else does.
+// A job: all that a host must know to take part in a run, and nothing of who else does.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What a node has learnt in one run, kept in a file for later ones.
+// State that a node has learnt in one run, kept in a file for later ones.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// How far the preparing of a run is, for display.
+// Progress of preparing, for display.
 #pragma once
 
 #include <cstddef>

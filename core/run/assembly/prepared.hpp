@@ -1,4 +1,4 @@
-// What is prepared before rendering: in which order, and under which name.
+// The order of preparing, and the names of its results.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How a conductor goes on to another pass of the picture.
+// Passes of the picture, as a conductor goes from one to the next.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// Which part of a proposed plan a conductor puts in force: what can be asked by now.
+// The part of a proposed plan that a conductor puts in force: what can be asked by now.
 #include <algorithm>
 #include <iterator>
 #include <set>

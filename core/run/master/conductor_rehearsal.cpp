@@ -1,4 +1,4 @@
-// When a conductor begins a rehearsal, and when it ends.
+// The beginning and the end of a conductor's rehearsals.
 #include <algorithm>
 #include <set>
 #include <utility>

@@ -1,4 +1,4 @@
-// How a conductor deals out the shards of calls, and takes in what comes of them.
+// Shards of calls, as a conductor deals them out and takes in what comes of them.
 #include <algorithm>
 
 #include "core/base/error.hpp"

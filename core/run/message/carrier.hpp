@@ -1,4 +1,4 @@
-// What moves messages between places: the seam between the runtime and the transports.
+// The carrier of messages between places: the seam between the runtime and the transports.
 #pragma once
 
 #include <chrono>

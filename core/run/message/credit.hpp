@@ -1,4 +1,4 @@
-// How much may be under way to one place: flow control by credit.
+// Credit: the bound on what is under way to one place (flow control).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What the places of a host are at and have done so far: for those who watch a run.
+// Figures of the places of a host, for those who watch a run.
 #pragma once
 
 #include <cstdint>

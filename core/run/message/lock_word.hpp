@@ -1,4 +1,4 @@
-// What is said about named locks.
+// Messages about named locks.
 #pragma once
 
 #include <cstdint>

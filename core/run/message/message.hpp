@@ -1,4 +1,4 @@
-// What places say to each other, before a carrier turns it into bytes or hands it over as it is.
+// Messages between places, before a carrier turns them into bytes or hands them over as they are.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What places are called in messages.
+// Names of places in messages.
 #pragma once
 
 #include <set>

@@ -1,4 +1,4 @@
-// What one place did in a run: per node and per edge of the graph.
+// The record of one place in a run: per node and per edge of the graph.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a place was busy with, moment by moment.
+// The trace of one place: its activity, moment by moment.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How the launcher leads places through preparing: what it asks of them, and what they report.
+// Steps by which the launcher leads places through preparing: what it asks of them, and what they report.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How many questions are worth being sent, or answered, together.
+// The size from which a bundle is full.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How a place answers what it is asked.
+// Answers of a place to what it is asked.
 #include <algorithm>
 #include <chrono>
 

@@ -1,4 +1,4 @@
-// What other places take off one that has more to do than they.
+// Work that others take off a place that has more to do than they.
 #include <algorithm>
 #include <chrono>
 #include <memory>

@@ -1,4 +1,4 @@
-// Which copies of work are under way, where, and whose credit they take.
+// The ledger of copies under way: where they are, and whose credit they take.
 #pragma once
 
 #include <cstddef>

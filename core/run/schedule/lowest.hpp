@@ -1,4 +1,4 @@
-// Which of many numbered things has the lowest key.
+// A tournament tree: the lowest key of many numbered things.
 #pragma once
 
 #include <bit>

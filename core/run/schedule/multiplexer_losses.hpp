@@ -1,4 +1,4 @@
-// What Multiplexer makes of losses on the way to hosts; part of multiplexer.hpp.
+// Losses on the way to hosts, as a Multiplexer deals with them; part of multiplexer.hpp.
 #pragma once
 
 #include "core/run/schedule/multiplexer.hpp"

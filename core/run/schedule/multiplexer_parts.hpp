@@ -1,4 +1,4 @@
-// What Multiplexer does; part of multiplexer.hpp.
+// Functions of Multiplexer; part of multiplexer.hpp.
 #pragma once
 
 #include "core/run/schedule/multiplexer.hpp"

@@ -1,4 +1,4 @@
-// How a Multiplexer has work done by two hosts and compares what they say; part of multiplexer.hpp.
+// Verified work of a Multiplexer: done by two hosts, and compared; part of multiplexer.hpp.
 #pragma once
 
 #include "core/run/schedule/multiplexer.hpp"

@@ -1,4 +1,4 @@
-// How the parts of a scheduler name what they speak of.
+// Numbers by which the parts of a scheduler name things.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Who is to answer what, and what to do when answers stay away: all decisions of one asker, and nothing else.
+// The scheduler: all decisions of one asker, on who answers what and what to do when answers stay away.
 #pragma once
 
 #include <algorithm>

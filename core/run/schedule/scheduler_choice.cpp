@@ -1,4 +1,4 @@
-// How the scheduler chooses: what replicas are worth, and in which order they stand.
+// The scheduler's choice among replicas: what they are worth, and in which order they stand.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// What the scheduler does when answers stay away: overdue work, failures, suspects.
+// The scheduler's rescue of work whose answers stay away: overdue work, failures, suspects.
 #include <algorithm>
 #include <set>
 

@@ -1,4 +1,4 @@
-// How fast each replica answers, and all of them together.
+// Service times of each replica, and of all together.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Which answers are asked for a second time, of another host.
+// The random choice of answers that are asked for a second time, of another host.
 #pragma once
 
 #include <cstdint>

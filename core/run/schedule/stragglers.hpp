@@ -1,4 +1,4 @@
-// Which copies of work are late: overdue ones, and those that keep the end of a phase waiting.
+// Late copies of work: overdue ones, and those that keep the end of a phase waiting.
 #pragma once
 
 #include "core/run/schedule/lowest.hpp"

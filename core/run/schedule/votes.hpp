@@ -1,4 +1,4 @@
-// What several hosts have answered to the same questions, and whom to believe.
+// Votes of several hosts on the same questions, and whom to believe.
 #pragma once
 
 #include <algorithm>
