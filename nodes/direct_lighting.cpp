@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/base/math/many_samples.hpp"
-#include "core/estimate/first_rays.hpp"
 #include "core/estimate/lamps_met.hpp"
 #include "core/estimate/path_vertices.hpp"
+#include "core/estimate/shared_first_rays.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -37,7 +37,7 @@ public:
         : scene_(here.scene()),
           groups_(scene_.groups()),
           key_(here.key()),
-          first_rays_(here.shared<FirstRays>()),
+          first_rays_(here.shared<SharedFirstRays>()),
           samples_(static_cast<std::uint32_t>(here.integer("samples"))),
           most_(std::bit_ceil(static_cast<std::uint32_t>(here.integer("most_samples")))),
           error_(static_cast<float>(here.number("error"))),
@@ -45,7 +45,7 @@ public:
           heuristic_(heuristic_called(here.text("heuristic"))) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
-        FirstRays own;
+        SharedFirstRays own;
         Samplers samplers(scene_, error_ > 0 ? own : *first_rays_);
         Wanted wanted{questions, std::vector<std::uint32_t>(questions.size(), samples_), samples_, {}};
         if (error_ > 0) {
@@ -73,9 +73,9 @@ private:
     };
     /// Some samples, and scratch space for them.
     struct Samplers {
-        Samplers(const Scene& scene, FirstRays& rays) : first_rays(rays), vertices(scene) {}
+        Samplers(const Scene& scene, SharedFirstRays& rays) : first_rays(rays), vertices(scene) {}
 
-        FirstRays& first_rays;
+        SharedFirstRays& first_rays;
         std::size_t before = 0;          // so many samples were taken before
         std::vector<std::size_t> asked;  // whose each sample is
         std::vector<Rgb> found;          // by each, group by group of lamps
@@ -86,10 +86,10 @@ private:
         PathVertices vertices;
         ShadowRays shadow_rays;
         std::vector<std::uint8_t> occluded;
-        std::span<FirstRays::One> by_direction;  // of each
-        std::vector<std::uint32_t> looking;      // those whose direction may find light
-        std::vector<std::uint32_t> leaving;      // of these: they meet nothing
-        LampsMet lamps_met;                      // of these
+        std::span<SharedFirstRays::One> by_direction;  // of each
+        std::vector<std::uint32_t> looking;            // those whose direction may find light
+        std::vector<std::uint32_t> leaving;            // of these: they meet nothing
+        LampsMet lamps_met;                            // of these
     };
     /// Numbers of a sample, beside those of its direction.
     enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp };
@@ -101,7 +101,8 @@ private:
         some.before = 0;
         for (std::size_t q = 0; q < questions.size(); ++q) {
             const auto apart = [&](Key stream) { return wanted.key ? child(stream, wanted.key) : stream; };
-            const Key key = apart(child(questions[q].stream, key_)), first_key = apart(FirstRays::stream(questions[q]));
+            const Key key = apart(child(questions[q].stream, key_)),
+                      first_key = apart(SharedFirstRays::stream(questions[q]));
             for (std::uint32_t i = 0; i < wanted.counts[q]; ++i) {
                 some.asked.push_back(q);
                 const auto index = questions[q].sample * wanted.room + i;
@@ -121,7 +122,7 @@ private:
         const std::size_t end = some.before + some.asked.size();
         some.by_direction = some.first_rays.some(some.before, end);
         const bool known = some.first_rays.known(end);
-        if (!known) some.first_numbers.draw(FirstRays::direction, some.directions);
+        if (!known) some.first_numbers.draw(SharedFirstRays::direction, some.directions);
         for (std::size_t next = 0; next < some.asked.size();) next = draw_rays(some, questions, next, known);
         some.first_rays.set_known(end);
         find_lamps(some);
@@ -148,7 +149,7 @@ private:
                 },
                 [&](std::uint32_t i) { return i * static_cast<std::uint32_t>(groups_); });
         if (known) return next;
-        FirstRays::draw(some.vertices, some.directions, some.first_numbers, some.by_direction);
+        SharedFirstRays::draw(some.vertices, some.directions, some.first_numbers, some.by_direction);
         return next;
     }
 
@@ -167,7 +168,7 @@ private:
                 some.looking.push_back(i);
         some.first_rays.trace(some.by_direction, some.looking);
         for (const std::uint32_t i : some.looking) {
-            const FirstRays::One& one = some.by_direction[i];
+            const SharedFirstRays::One& one = some.by_direction[i];
             if (!one.hit)
                 some.leaving.push_back(i);
             else if (scene_.shines(*one.hit))
@@ -182,7 +183,7 @@ private:
     }
     void meet_lamps(Samplers& some) const {
         some.lamps_met.find(scene_, heuristic_, [&](std::uint32_t i, Rgb arriving, std::uint32_t group) {
-            const FirstRays::One& one = some.by_direction[i];
+            const SharedFirstRays::One& one = some.by_direction[i];
             some.found[i * groups_ + group] +=
                 one.step.sample.weight * left_after(one.step.inside, one.hit->distance) * arriving;
         });
@@ -240,7 +241,7 @@ private:
     const Scene& scene_;
     std::size_t groups_;  // of lamps
     Key key_;
-    std::shared_ptr<FirstRays> first_rays_;
+    std::shared_ptr<SharedFirstRays> first_rays_;
     static constexpr std::uint32_t trials = 16;
     static constexpr double surely = 2.07;  // 95 of 100 variances are below so many times what 16 normal values show
     static constexpr Key trial_key = key_of("trials");

@@ -18,7 +18,7 @@ public:
     explicit PathTracing(const NodeContext& here)
         : key_(here.key()),
           guide_(here.has("guide") ? &here.taken("guide") : nullptr),
-          first_rays_(here.shared<FirstRays>()),
+          first_rays_(here.shared<SharedFirstRays>()),
           paths_(here.scene(),
                  {static_cast<std::uint32_t>(here.integer("samples")),
                   static_cast<std::uint32_t>(here.integer("max_depth")),
@@ -38,7 +38,7 @@ public:
 private:
     Key key_;
     const LightOp* guide_;  // null: none
-    std::shared_ptr<FirstRays> first_rays_;
+    std::shared_ptr<SharedFirstRays> first_rays_;
     PathWalk paths_;
 };
 // A limit counts the surfaces between the lamp and the one asked about.

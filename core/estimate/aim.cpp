@@ -1,6 +1,6 @@
 #include "core/estimate/aim.hpp"
 
-#include "core/scene/lamps/shares.hpp"
+#include "core/scene/lamps/prefix_cdf.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ Aim::Aim(std::span<const Trial> trials) {
     for (const Cell& cell : cells_) total += cell.gain;
     for (const Cell& cell : cells_)
         shares.push_back(total > 0 ? even_share * cell.volume() + (1 - even_share) * cell.gain / total : cell.volume());
-    running_shares(shares, ends_);
+    prefix_cdf(shares, ends_);
 }
 
 // Of light with that density in the cell, the deviation is least when cells are chosen in proportion to this.

@@ -10,11 +10,11 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/base/math/many_samples.hpp"
-#include "core/estimate/first_rays.hpp"
 #include "core/estimate/lamps_met.hpp"
 #include "core/estimate/path_lessons.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/estimate/shadow_rays.hpp"
+#include "core/estimate/shared_first_rays.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -50,10 +50,10 @@ struct PathBatch {
     std::vector<Path> paths;
     std::vector<Ray> rays;  // of each path
     std::vector<std::optional<Hit>> hits;
-    ManySamples samples;                   // of each path
-    std::span<FirstRays::One> first_rays;  // of those that began
-    ManySamples first_samples;             // the same, of their random numbers
-    std::vector<std::uint32_t> begun;      // of paths that go on by them: which of those
+    ManySamples samples;                         // of each path
+    std::span<SharedFirstRays::One> first_rays;  // of those that began
+    ManySamples first_samples;                   // the same, of their random numbers
+    std::vector<std::uint32_t> begun;            // of paths that go on by them: which of those
     Numbers numbers;
     PathVertices vertices;
     ShadowRays shadow_rays;

@@ -15,7 +15,7 @@ template <bool guided>
 class Walker {
 public:
     /// `first`: null where paths begin by a guide, or for one.
-    Walker(const Scene& scene, const PathPlan& plan, Key key, const LightGuide* guide, FirstRays* first)
+    Walker(const Scene& scene, const PathPlan& plan, Key key, const LightGuide* guide, SharedFirstRays* first)
         : scene_(scene),
           guide_(guide),
           first_rays_(plan.all ? nullptr : first),
@@ -121,13 +121,13 @@ private:
         for (std::size_t i = 0; i < batch.asked.size(); ++i) {
             const Query& asked = question(i);
             const auto sample = static_cast<std::uint32_t>((before + i) % samples_);
-            samples.add(FirstRays::stream(asked), asked.sample * samples_ + sample);
+            samples.add(SharedFirstRays::stream(asked), asked.sample * samples_ + sample);
         }
-        samples.draw(FirstRays::direction, batch.numbers.directions);
+        samples.draw(SharedFirstRays::direction, batch.numbers.directions);
         for (std::size_t next = 0; next < batch.asked.size();) {
             next = batch.vertices.begin(next, batch.asked.size(), question);
             batch.vertices.find_bsdfs();
-            FirstRays::draw(batch.vertices, batch.numbers.directions, samples, batch.first_rays);
+            SharedFirstRays::draw(batch.vertices, batch.numbers.directions, samples, batch.first_rays);
         }
     }
     void begin_by_first_rays(Batch& batch) const {
@@ -348,8 +348,8 @@ private:
 
     const Scene& scene_;
     const LightGuide* guide_;
-    FirstRays* first_rays_;  // null: found anew
-    std::uint32_t groups_;   // of lamps
+    SharedFirstRays* first_rays_;  // null: found anew
+    std::uint32_t groups_;         // of lamps
     Key key_;
     std::uint32_t samples_;
     std::uint32_t max_depth_;
@@ -360,7 +360,7 @@ private:
 
 }  // namespace
 
-void PathWalk::light(std::span<const Query> questions, Key key, FirstRays& first, std::span<Rgb> answers) const {
+void PathWalk::light(std::span<const Query> questions, Key key, SharedFirstRays& first, std::span<Rgb> answers) const {
     Walker<false>(scene_, plan_, key, nullptr, &first).walk(questions, answers, nullptr);
 }
 

@@ -8,8 +8,8 @@
 #include "core/base/math/random.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/query.hpp"
-#include "core/estimate/first_rays.hpp"
 #include "core/estimate/light_guide.hpp"
+#include "core/estimate/shared_first_rays.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -50,8 +50,8 @@ public:
     PathWalk(const Scene& scene, const PathPlan& plan) : scene_(scene), plan_(plan) {}
 
     /// Adds the mean light of each question's paths to its answer, group by group of lamps. Random numbers come from
-    /// child(question.stream, key), those of first directions from FirstRays::stream(question).
-    void light(std::span<const Query> questions, Key key, FirstRays& first, std::span<Rgb> answers) const;
+    /// child(question.stream, key), those of first directions from SharedFirstRays::stream(question).
+    void light(std::span<const Query> questions, Key key, SharedFirstRays& first, std::span<Rgb> answers) const;
     /// Adds the mean light of paths that go on by a guide, and not by surfaces alone.
     void light(std::span<const Query> questions, Key key, const LightGuide& guide, std::span<Rgb> answers) const;
 

@@ -14,7 +14,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/own_process.hpp"
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 
 namespace lightnet::spare_threads_test {
 namespace {
@@ -65,10 +65,10 @@ TEST(SpareThreads, AreWantedInWords) {
 
 TEST(SpareThreads, AreNotNeededByAWorkshop) {
     EXPECT_TRUE(with_few_threads([] {
-        Workshop workshop(200);
+        ThreadPool thread_pool(200);
         std::atomic<int> done{0};
-        for (int i = 0; i < 1000; ++i) workshop.add([&done] { ++done; });
-        workshop.finish();
+        for (int i = 0; i < 1000; ++i) thread_pool.add([&done] { ++done; });
+        thread_pool.finish();
         return done == 1000;
     }));
 }

@@ -222,7 +222,7 @@ double cost_of_paths(const Scene& scene) {
                              .outgoing = {0, 1, 0}});
     }
     std::vector<Rgb> answers(questions.size());
-    FirstRays first;
+    SharedFirstRays first;
     const double begun = thread_seconds();
     paths.light(questions, 1, first, answers);
     return (thread_seconds() - begun) * 1e9 / (double(asked) * samples);

@@ -7,7 +7,7 @@
 #include "core/network/graph/check.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/run/assembly/fingerprint.hpp"
-#include "core/run/master/conductor.hpp"
+#include "core/run/master/coordinator.hpp"
 #include "core/run/master/master_renderer.hpp"
 #include "core/run/master/tiles_by_pass.hpp"
 #include "lua/load_graph.hpp"
@@ -45,7 +45,7 @@ Stage::Stage(const Registry& registry, const Graph& graph) : registry_(registry)
 void Stage::lead(Carrier& carrier, const Plan& plan, std::uint64_t run, const std::function<void()>& check,
                  Rendered& made) {
     Film film(format_);
-    Conductor::Options options;
+    Coordinator::Options options;
     options.run = run;
     options.graph = &job_.graph;
     options.registry = &registry_;
@@ -53,14 +53,14 @@ void Stage::lead(Carrier& carrier, const Plan& plan, std::uint64_t run, const st
     options.made_from = made_from(job_);
     options.cache = cache_;
     options.say = [&](const std::string& text) { made.said.push_back(text); };
-    Conductor conductor(std::move(options), carrier);
-    conductor.propose(plan);
+    Coordinator coordinator(std::move(options), carrier);
+    coordinator.propose(plan);
     TilesByPass passes(job_.graph, registry_, tiles_of(job_.width, job_.height, tile_size, format_.samples));
     while (!passes.empty()) {
         auto tiles = passes.begin_next();
-        conductor.begin_pass(passes.pass());
+        coordinator.begin_pass(passes.pass());
         made.preparing += seconds_of([&] {
-            while (!conductor.prepare(50ms)) check();
+            while (!coordinator.prepare(50ms)) check();
         });
         MasterRenderer::Job job{run,
                                 static_cast<std::uint32_t>(image_),
@@ -68,9 +68,9 @@ void Stage::lead(Carrier& carrier, const Plan& plan, std::uint64_t run, const st
                                 std::move(tiles),
                                 {2, 2 * MasterRenderer::most_together}};
         job.verify = job_.tuning.verify;
-        MasterRenderer master(std::move(job), conductor,
+        MasterRenderer master(std::move(job), coordinator,
                               [&](const Tile& tile, std::span<const Rgb> pixels) { film.add(tile, pixels); });
-        master.use(conductor.in_force());
+        master.use(coordinator.in_force());
         while (!master.work(50ms)) check();
     }
     made.picture = film.picture(scale_);

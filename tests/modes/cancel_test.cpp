@@ -95,9 +95,9 @@ TEST_P(Cancel, EndsASerialRun) {
 }
 
 // Until somebody is at work.
-void begin(Conductor& conductor) {
+void begin(Coordinator& coordinator) {
     const auto end = Clock::now() + slowdown * 20s;
-    while (at_work == 0 && Clock::now() < end) EXPECT_FALSE(conductor.prepare(2ms));
+    while (at_work == 0 && Clock::now() < end) EXPECT_FALSE(coordinator.prepare(2ms));
     ASSERT_GT(at_work, 0);
 }
 
@@ -105,10 +105,10 @@ TEST_P(Cancel, EndsPlacesInThreads) {
     const Learning learning = endless(GetParam());
     const Plan all = plan(learning.network->graph, learning.registry, {}, {{"", 3}});
     ThreadedRun run(learning.network, 1, all, {});
-    Conductor conductor(learning.options(), run.carrier());
-    conductor.propose(all);
-    begin(conductor);
-    EXPECT_EQ(with(conductor.progress(), learning.network->activity->all()),
+    Coordinator coordinator(learning.options(), run.carrier());
+    coordinator.propose(all);
+    begin(coordinator);
+    EXPECT_EQ(with(coordinator.progress(), learning.network->activity->all()),
               (PrepareProgress{"endless", 1, 1, 3, 8, "goes on for ever"}));
     run.stop();
     expect_nobody_at_work();
@@ -121,12 +121,12 @@ TEST_P(Cancel, EndsPlacesOnHosts) {
     const std::atomic<bool> never{false};
     Cluster cluster(cluster_of(learning, {one.endpoint(), two.endpoint()}));
     cluster.gather(slowdown * 20s, never);
-    Conductor conductor(learning.options(), cluster);
-    conductor.propose(cluster.plan());
-    begin(conductor);
+    Coordinator coordinator(learning.options(), cluster);
+    coordinator.propose(cluster.plan());
+    begin(coordinator);
     const auto end = Clock::now() + slowdown * 20s;  // hosts tell it with their heartbeats
-    while (cluster.doing().empty() && Clock::now() < end) conductor.prepare(2ms);
-    EXPECT_EQ(with(conductor.progress(), cluster.doing()),
+    while (cluster.doing().empty() && Clock::now() < end) coordinator.prepare(2ms);
+    EXPECT_EQ(with(coordinator.progress(), cluster.doing()),
               (PrepareProgress{"endless", 1, 1, 3, 8, "goes on for ever"}));
     cluster.finish(300ms);
     expect_nobody_at_work();

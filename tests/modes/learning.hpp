@@ -19,7 +19,7 @@
 #include "core/network/graph/layout.hpp"
 #include "core/run/assembly/fingerprint.hpp"
 #include "core/run/assembly/job.hpp"
-#include "core/run/master/conductor.hpp"
+#include "core/run/master/coordinator.hpp"
 #include "core/run/master/tiles_by_pass.hpp"
 #include "core/run/serial/serial.hpp"
 #include "nodes/standard_nodes.hpp"
@@ -100,36 +100,36 @@ public:
 
     // On hosts, whose carrier this is. `meanwhile` is called often while they prepare.
     std::vector<Pixels> networked(Cluster& cluster, const std::function<void()>& meanwhile = {}) const {
-        Conductor conductor(options(), cluster);
-        conductor.propose(cluster.plan());
+        Coordinator coordinator(options(), cluster);
+        coordinator.propose(cluster.plan());
         const auto end = std::chrono::steady_clock::now() + slowdown * std::chrono::seconds(30);
-        while (!conductor.prepare(std::chrono::milliseconds(2))) {
+        while (!coordinator.prepare(std::chrono::milliseconds(2))) {
             if (meanwhile) meanwhile();
             if (std::chrono::steady_clock::now() > end) {
-                ADD_FAILURE() << "preparing hangs: " << to_string(conductor.progress());
+                ADD_FAILURE() << "preparing hangs: " << to_string(coordinator.progress());
                 return {};
             }
         }
-        return render(conductor);
+        return render(coordinator);
     }
 
     std::vector<Pixels> threaded(const Plan& plan, Tuning rules) const {
         ThreadedRun run(network, 1, plan, rules);
-        Conductor conductor(options(), run.carrier());
-        conductor.propose(plan);
-        EXPECT_TRUE(conductor.prepare(slowdown * std::chrono::seconds(30)))
-            << "preparing hangs: " << to_string(conductor.progress());
+        Coordinator coordinator(options(), run.carrier());
+        coordinator.propose(plan);
+        EXPECT_TRUE(coordinator.prepare(slowdown * std::chrono::seconds(30)))
+            << "preparing hangs: " << to_string(coordinator.progress());
         for (std::size_t node = 0; node < plan.places_of.size(); ++node)
-            EXPECT_EQ(conductor.in_force().places_of[node].empty(), plan.places_of[node].empty()) << "can be asked";
+            EXPECT_EQ(coordinator.in_force().places_of[node].empty(), plan.places_of[node].empty()) << "can be asked";
         EXPECT_LE(said.size(), std::max<std::size_t>(2, 2 * job.graph.sectors.size()))
             << "each line once, however many places say it";
-        auto pixels = render(conductor);
+        auto pixels = render(coordinator);
         counted = run.stop();
         return pixels;
     }
 
-    Conductor::Options options() const {
-        Conductor::Options options;
+    Coordinator::Options options() const {
+        Coordinator::Options options;
         said.clear();
         options.say = [this](const std::string& line) { said.push_back(line); };
         options.run = 1;
@@ -140,7 +140,7 @@ public:
         return options;
     }
 
-    std::vector<Pixels> render(Conductor& conductor) const {
+    std::vector<Pixels> render(Coordinator& coordinator) const {
         std::vector<Pixels> pixels(tiles.size());
         MasterRenderer::Job work;
         work.run = 1;
@@ -149,14 +149,14 @@ public:
         TilesByPass passes(network->graph, registry, tiles);
         while (!passes.empty()) {
             work.tiles = passes.begin_next();
-            conductor.begin_pass(passes.pass());
-            EXPECT_TRUE(conductor.prepare(slowdown * std::chrono::seconds(30))) << "preparing hangs";
+            coordinator.begin_pass(passes.pass());
+            EXPECT_TRUE(coordinator.prepare(slowdown * std::chrono::seconds(30))) << "preparing hangs";
             if (between_passes) between_passes(passes.pass());
-            MasterRenderer master(work, conductor, [&](const Tile& tile, std::span<const Rgb> colours) {
+            MasterRenderer master(work, coordinator, [&](const Tile& tile, std::span<const Rgb> colours) {
                 const auto index = std::find(tiles.begin(), tiles.end(), tile) - tiles.begin();
                 pixels[static_cast<std::size_t>(index)].assign(colours.begin(), colours.end());
             });
-            master.use(conductor.in_force());
+            master.use(coordinator.in_force());
             EXPECT_TRUE(master.work(slowdown * std::chrono::seconds(30))) << "rendering hangs";
         }
         return pixels;

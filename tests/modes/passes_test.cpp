@@ -127,10 +127,10 @@ TEST(Passes, DoNotDependOnThoseBefore) {
     std::erase_if(rest.tiles, is_early);
     const auto whole = plan(rest.network->graph, rest.registry, {}, {{"", 2}});
     ThreadedRun run(rest.network, 1, whole, {});
-    Conductor conductor(rest.options(), run.carrier());
-    conductor.begin_pass(2);
-    conductor.propose(whole);
-    const auto late = rest.render(conductor);
+    Coordinator coordinator(rest.options(), run.carrier());
+    coordinator.begin_pass(2);
+    coordinator.propose(whole);
+    const auto late = rest.render(coordinator);
     run.stop();
     std::vector<Pixels> expected;
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -181,10 +181,10 @@ std::vector<Pixels> prepared_with(const Learning& learning, const Plan& plan, Re
     ThreadedRun run(learning.network, 1, plan, {});
     auto options = learning.options();
     options.cache = &cache;
-    Conductor conductor(options, run.carrier());
-    conductor.propose(plan);
-    EXPECT_TRUE(conductor.prepare(slowdown * 30s));
-    auto pixels = learning.render(conductor);
+    Coordinator coordinator(options, run.carrier());
+    coordinator.propose(plan);
+    EXPECT_TRUE(coordinator.prepare(slowdown * 30s));
+    auto pixels = learning.render(coordinator);
     run.stop();
     return pixels;
 }

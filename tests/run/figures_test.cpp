@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "core/run/assembly/looker.hpp"
+#include "core/run/assembly/sampling_profiler.hpp"
 #include "tests/support/slowdown.hpp"
 
 namespace lightnet::figures_test {
@@ -25,19 +25,19 @@ TEST(HostFigures, AreNotReadFromWhatIsDamaged) {
         EXPECT_FALSE(figures_from(damaged)) << damaged;
 }
 
-TEST(Looker, SeesWhatPlacesAreAt) {
+TEST(SamplingProfiler, SeesWhatPlacesAreAt) {
     Gauge working(3, 2), waiting(3, 2);
-    working.turn_to(Gauge::at(2));
-    waiting.turn_to(Gauge::waiting);
+    working.set_activity(Gauge::at(2));
+    waiting.set_activity(Gauge::waiting);
     working.edges[1].questions.add(5);
     waiting.edges[1].questions.add(6);
     waiting.nodes[0].bundles.add(7);
-    const Looker looker({&working, &waiting});
+    const SamplingProfiler profiler({&working, &waiting});
     HostFigures seen;
     for (const auto end = std::chrono::steady_clock::now() + test::slowdown * std::chrono::seconds(30);
          std::chrono::steady_clock::now() < end && seen.places.empty();) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        if (const auto now = looker.figures(); now.places[0].busy > 1) seen = now;
+        if (const auto now = profiler.figures(); now.places[0].busy > 1) seen = now;
     }
     ASSERT_EQ(seen.places.size(), 2u);
     EXPECT_EQ(seen.places[1].waiting, seen.places[0].busy);
@@ -48,9 +48,9 @@ TEST(Looker, SeesWhatPlacesAreAt) {
 
 TEST(Gauge, SaysAgainWhatCameBefore) {
     Gauge gauge(2, 0);
-    gauge.turn_to(Gauge::at(0));
+    gauge.set_activity(Gauge::at(0));
     {
-        const Turned turned(gauge, Gauge::at(1));
+        const ScopedActivity turned(gauge, Gauge::at(1));
         EXPECT_EQ(gauge.doing(), Gauge::at(1));
     }
     EXPECT_EQ(gauge.doing(), Gauge::at(0));

@@ -1,4 +1,4 @@
-// Places that a test plays, for a conductor.
+// Places that a test plays, for a coordinator.
 #pragma once
 
 #include <cstring>
@@ -63,8 +63,8 @@ public:
         arrived.push_back(std::move(message));
     }
     void answer_tiles(Asked to) { arrived.push_back(reply_to(to.message)); }
-    /// Until something else is asked. `lead`: lets the conductor go on; when that has been in vain too often, it gives
-    /// up.
+    /// Until something else is asked. `lead`: lets the coordinator go on; when that has been in vain too often, it
+    /// gives up.
     template <class Lead>
     void answer_all_tiles(const Lead& lead) {
         for (int patience = 0; patience < 1000 && (asked.empty() || asked.front().of_tiles()); ++patience)

@@ -6,23 +6,23 @@
 #include <vector>
 
 #include "core/run/schedule/hash_ring.hpp"
-#include "core/run/schedule/ledger.hpp"
-#include "core/run/schedule/lowest.hpp"
+#include "core/run/schedule/in_flight.hpp"
 #include "core/run/schedule/service_times.hpp"
 #include "core/run/schedule/stragglers.hpp"
 #include "core/run/schedule/suspects.hpp"
+#include "core/run/schedule/tournament_tree.hpp"
 
 namespace lightnet::scheduler_parts_test {
 namespace {
 
-TEST(Lowest, KnowsTheLowestKeyThroughAllChanges) {
-    Lowest lowest;
+TEST(TournamentTree, KnowsTheLowestKeyThroughAllChanges) {
+    TournamentTree lowest;
     std::map<std::size_t, double> keys;
     std::uint64_t random = 1;
     for (int change = 0; change < 5000; ++change) {
         random = random * 6364136223846793005ull + 1442695040888963407ull;
         const std::size_t number = (random >> 33) % 37;
-        const double key = (random >> 40) % 5 == 0 ? Lowest::none : static_cast<double>((random >> 45) % 100);
+        const double key = (random >> 40) % 5 == 0 ? TournamentTree::none : static_cast<double>((random >> 45) % 100);
         lowest.set(number, key);
         keys[number] = key;
         auto first = keys.begin();
@@ -117,54 +117,54 @@ TEST(ServiceTimes, KeepWhatReplicasSayOfTheirWorkApartFromWhatIsWaitedFor) {
     EXPECT_NEAR(times.said(), 0.3, 1e-4);
 }
 
-// ---- Ledger ----
+// ---- InFlight ----
 
-Ledger::Copy copy_of(Ledger::WorkId work, Ledger::Time overdue = 1) {
+InFlight::Copy copy_of(InFlight::WorkId work, InFlight::Time overdue = 1) {
     return {.work = work, .questions = 10, .bytes = 100, .overdue = overdue};
 }
 
-TEST(Ledger, GivesCreditBackWithTheCopy) {
-    Ledger ledger;
-    const auto first = ledger.open(2, copy_of(7));
-    ledger.open(2, copy_of(8));
-    EXPECT_EQ(ledger.of(2).questions, 20u);
-    EXPECT_EQ(ledger.of(2).bytes, 200u);
-    const auto closed = ledger.close(first);
+TEST(InFlight, GivesCreditBackWithTheCopy) {
+    InFlight in_flight;
+    const auto first = in_flight.open(2, copy_of(7));
+    in_flight.open(2, copy_of(8));
+    EXPECT_EQ(in_flight.of(2).questions, 20u);
+    EXPECT_EQ(in_flight.of(2).bytes, 200u);
+    const auto closed = in_flight.close(first);
     ASSERT_TRUE(closed);
     EXPECT_EQ(closed->replica, 2u);
     EXPECT_EQ(closed->work, 7u);
     EXPECT_TRUE(closed->copy);
-    EXPECT_EQ(ledger.of(2).questions, 10u);
-    EXPECT_EQ(ledger.copies(), 1u);
-    EXPECT_FALSE(ledger.close(first)) << "a copy comes back once";
+    EXPECT_EQ(in_flight.of(2).questions, 10u);
+    EXPECT_EQ(in_flight.copies(), 1u);
+    EXPECT_FALSE(in_flight.close(first)) << "a copy comes back once";
 }
 
-TEST(Ledger, RemembersWhatIsWrittenOffWithoutItsCredit) {
-    Ledger ledger;
-    ledger.open(0, copy_of(7, 5));
-    const auto second = ledger.open(0, copy_of(8, 3));
-    EXPECT_EQ(ledger.write_off_first(0).id, second);
-    EXPECT_EQ(ledger.of(0).copies.size(), 1u);
-    EXPECT_EQ(ledger.of(0).size(), 2u);
-    EXPECT_EQ(ledger.questions(), 10u);
-    EXPECT_EQ(ledger.work_of(second), 8u);
-    const auto closed = ledger.close(second);
+TEST(InFlight, RemembersWhatIsWrittenOffWithoutItsCredit) {
+    InFlight in_flight;
+    in_flight.open(0, copy_of(7, 5));
+    const auto second = in_flight.open(0, copy_of(8, 3));
+    EXPECT_EQ(in_flight.write_off_first(0).id, second);
+    EXPECT_EQ(in_flight.of(0).copies.size(), 1u);
+    EXPECT_EQ(in_flight.of(0).size(), 2u);
+    EXPECT_EQ(in_flight.questions(), 10u);
+    EXPECT_EQ(in_flight.work_of(second), 8u);
+    const auto closed = in_flight.close(second);
     ASSERT_TRUE(closed);
     EXPECT_FALSE(closed->copy);
-    EXPECT_EQ(ledger.of(0).size(), 1u);
+    EXPECT_EQ(in_flight.of(0).size(), 1u);
 }
 
-TEST(Ledger, ForgetsAllThatAReplicaHadWhenItIsGone) {
-    Ledger ledger;
-    ledger.open(0, copy_of(7, 5));
-    const auto late = ledger.open(0, copy_of(8, 3));
-    const auto elsewhere = ledger.open(1, copy_of(7));
-    ledger.write_off_first(0);
-    EXPECT_EQ(ledger.close_all(0).size(), 2u);
-    EXPECT_FALSE(ledger.replica_of(late));
-    EXPECT_EQ(ledger.replica_of(elsewhere), 1u);
-    EXPECT_EQ(ledger.copies(), 1u);
-    EXPECT_EQ(ledger.of(0).size(), 0u);
+TEST(InFlight, ForgetsAllThatAReplicaHadWhenItIsGone) {
+    InFlight in_flight;
+    in_flight.open(0, copy_of(7, 5));
+    const auto late = in_flight.open(0, copy_of(8, 3));
+    const auto elsewhere = in_flight.open(1, copy_of(7));
+    in_flight.write_off_first(0);
+    EXPECT_EQ(in_flight.close_all(0).size(), 2u);
+    EXPECT_FALSE(in_flight.replica_of(late));
+    EXPECT_EQ(in_flight.replica_of(elsewhere), 1u);
+    EXPECT_EQ(in_flight.copies(), 1u);
+    EXPECT_EQ(in_flight.of(0).size(), 0u);
 }
 
 // ---- Suspects ----
@@ -196,7 +196,7 @@ TEST(Suspects, AreClearedWhenTheHostHadNotDied) {
 
 TEST(Stragglers, KnowTheFirstAndTheLastOfAllReplicas) {
     Stragglers stragglers;
-    EXPECT_EQ(stragglers.next_overdue(), Lowest::none);
+    EXPECT_EQ(stragglers.next_overdue(), TournamentTree::none);
     stragglers.set(0, {.overdue = 9, .late = 3, .last = 4});
     stragglers.set(1, {.overdue = 8, .late = 2, .last = 2});
     stragglers.set(2, {.overdue = 7});
@@ -206,8 +206,8 @@ TEST(Stragglers, KnowTheFirstAndTheLastOfAllReplicas) {
     EXPECT_EQ(stragglers.last_at(), 0u);
     EXPECT_EQ(stragglers.last(), 4);
     stragglers.set(0, {}), stragglers.set(1, {});
-    EXPECT_EQ(stragglers.late(), Lowest::none);
-    EXPECT_EQ(stragglers.last(), -Lowest::none);
+    EXPECT_EQ(stragglers.late(), TournamentTree::none);
+    EXPECT_EQ(stragglers.last(), -TournamentTree::none);
 }
 
 }  // namespace

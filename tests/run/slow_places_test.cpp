@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/network/light/mapped.hpp"
-#include "core/run/master/conductor.hpp"
+#include "core/run/master/coordinator.hpp"
 #include "tests/run/places_by_hand.hpp"
 
 namespace lightnet::slow_places_test {
@@ -18,10 +18,11 @@ using conductor_test::ByHand;
 class TwoHosts : public ::testing::Test {
 protected:
     explicit TwoHosts(Graph (*made)(const Registry&)) : graph(made(kinds)) {
-        conductor.propose({{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
+        coordinator.propose(
+            {{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})});
     }
-    Conductor::Options options() const {
-        Conductor::Options options;
+    Coordinator::Options options() const {
+        Coordinator::Options options;
         options.run = 1;
         options.graph = &graph;
         options.registry = &kinds;
@@ -31,7 +32,7 @@ protected:
     Registry kinds = test::with_learner();
     Graph graph;
     ByHand places;
-    Conductor conductor{options(), places};
+    Coordinator coordinator{options(), places};
 };
 
 // A map, and an image that asks it.
@@ -50,48 +51,48 @@ TEST_F(SlowPlaces, HoldUpNobody) {
     const std::size_t caustics = 1;
     auto at_a = places.take(), at_b = places.take();
     places.answer(std::move(at_a), StepReport{StepReport::Kind::done, 0, 0});
-    EXPECT_TRUE(conductor.prepare(std::chrono::milliseconds(2))) << "a can be asked";
-    const auto& nodes = conductor.in_force().places_of;
+    EXPECT_TRUE(coordinator.prepare(std::chrono::milliseconds(2))) << "a can be asked";
+    const auto& nodes = coordinator.in_force().places_of;
     EXPECT_EQ(nodes[caustics], std::vector<std::uint32_t>{0});
     EXPECT_EQ(nodes[2], std::vector<std::uint32_t>{0}) << "b has something else to do";
     places.answer(std::move(at_b), StepReport{StepReport::Kind::done, 0, 0});
-    EXPECT_TRUE(conductor.prepare(std::chrono::milliseconds(2)));
-    while (conductor.receive()) {
+    EXPECT_TRUE(coordinator.prepare(std::chrono::milliseconds(2)));
+    while (coordinator.receive()) {
     }
-    EXPECT_EQ(conductor.in_force(), conductor.proposed());
+    EXPECT_EQ(coordinator.in_force(), coordinator.proposed());
 }
 
 // Else a thousand places would be told a thousand plans each, while they begin to be asked.
 TEST_F(SlowPlaces, AreNotTheSubjectOfAPlanEach) {
     constexpr std::uint32_t crowd = 300;
-    Plan plan = conductor.proposed();
+    Plan plan = coordinator.proposed();
     plan.places.clear();
     for (std::uint32_t place = 0; place < crowd; ++place) plan.places.push_back({"c", place});
     std::vector<std::uint32_t> everywhere(crowd);
     std::iota(everywhere.begin(), everywhere.end(), 0u);
     plan.places_of.assign(graph.nodes.size(), everywhere);
     places.asked.clear();
-    conductor.propose(plan);
+    coordinator.propose(plan);
     std::size_t plans = 0, done = 0;
     for (; !places.asked.empty(); ++done) {
         places.answer(places.take(), StepReport{StepReport::Kind::done, 0, 0});
-        while (const auto message = conductor.receive()) plans += message->type == Message::Type::plan;
+        while (const auto message = coordinator.receive()) plans += message->type == Message::Type::plan;
     }
     EXPECT_EQ(done, crowd);
     EXPECT_LT(plans, crowd / 4);
-    conductor.wait({});
-    EXPECT_EQ(conductor.in_force(), plan);
+    coordinator.wait({});
+    EXPECT_EQ(coordinator.in_force(), plan);
 }
 
 // What has one place alone is asked there, however slow that is.
 TEST_F(SlowPlaces, KeepWhatOnlyTheyHave) {
-    Plan plan = conductor.proposed();
+    Plan plan = coordinator.proposed();
     plan.places_of[2] = {1};
-    conductor.propose(plan);
+    coordinator.propose(plan);
     places.answer(places.take(), StepReport{StepReport::Kind::done, 0, 0});
-    EXPECT_TRUE(conductor.prepare(std::chrono::milliseconds(2)));
-    EXPECT_EQ(conductor.in_force().places_of[1], std::vector<std::uint32_t>{0});
-    EXPECT_EQ(conductor.in_force().places_of[2], std::vector<std::uint32_t>{1});
+    EXPECT_TRUE(coordinator.prepare(std::chrono::milliseconds(2)));
+    EXPECT_EQ(coordinator.in_force().places_of[1], std::vector<std::uint32_t>{0});
+    EXPECT_EQ(coordinator.in_force().places_of[2], std::vector<std::uint32_t>{1});
 }
 
 // A rehearsal waits for a while for who is slower, and then goes on without him.
@@ -99,19 +100,19 @@ TEST_F(Rehearsals, BeginWithoutASlowHost) {
     auto at_a = places.take(), at_b = places.take();
     const StepReport rehearses{StepReport::Kind::rehearse, 0, 4};
     places.answer(std::move(at_a), rehearses);
-    EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(20)));
+    EXPECT_FALSE(coordinator.prepare(std::chrono::milliseconds(20)));
     EXPECT_TRUE(places.asked.empty()) << "b may come";
-    EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(800)));
+    EXPECT_FALSE(coordinator.prepare(std::chrono::milliseconds(800)));
     ASSERT_FALSE(places.asked.empty());
     EXPECT_TRUE(places.asked.front().of_tiles());
     for (const auto& asked : places.asked) EXPECT_EQ(asked.place.host, "a");
-    places.answer_all_tiles([&] { EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2))); });
+    places.answer_all_tiles([&] { EXPECT_FALSE(coordinator.prepare(std::chrono::milliseconds(2))); });
     auto collect = places.take();
     ASSERT_TRUE(collect.of_kind(Step::Kind::collect));
     EXPECT_TRUE(places.asked.empty()) << "b has noted nothing";
     places.answer(std::move(collect), at(9));
     places.answer(std::move(at_b), rehearses);
-    EXPECT_FALSE(conductor.prepare(std::chrono::milliseconds(2)));
+    EXPECT_FALSE(coordinator.prepare(std::chrono::milliseconds(2)));
     for (const char* host : {"a", "b"}) {
         const auto go_on = places.take();
         ASSERT_TRUE(go_on.of_kind(Step::Kind::go_on));
@@ -124,7 +125,7 @@ TEST_F(Rehearsals, BeginWithoutASlowHost) {
 
 // Somebody may not have heard yet that the rehearsal is over, and would ask b, who would answer as in a rehearsal.
 TEST_F(Rehearsals, AreOverWhenAllWhoTookPartArePrepared) {
-    const auto lead = [&](int milliseconds) { return conductor.prepare(std::chrono::milliseconds(milliseconds)); };
+    const auto lead = [&](int milliseconds) { return coordinator.prepare(std::chrono::milliseconds(milliseconds)); };
     for (int i = 0; i < 2; ++i) places.answer(places.take(), StepReport{StepReport::Kind::rehearse, 0, 4});
     EXPECT_FALSE(lead(2));
     places.answer_all_tiles([&] { EXPECT_FALSE(lead(1)); });

@@ -11,7 +11,7 @@
 #include "core/base/math/sky_layout.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/lamps/environment.hpp"
-#include "core/scene/lamps/shares.hpp"
+#include "core/scene/lamps/prefix_cdf.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -109,7 +109,7 @@ TEST(Shares, AreFoundByMarksAsWithoutThem) {
         for (std::size_t i = 0; i < count; ++i) parts.push_back(i % 7 == 3 ? 0 : Samples(6, std::uint32_t(i)).next());
         if (count == 1000) parts[500] = 1e5;
         std::vector<float> ends;
-        running_shares(parts, ends);
+        prefix_cdf(parts, ends);
         for (const std::size_t pieces : {1u, 4u, 64u}) {
             std::vector<std::uint32_t> starts(pieces + 1);
             mark(ends, starts);

@@ -27,7 +27,7 @@ Matrix affine(Vec3 x, Vec3 y, Vec3 z, Vec3 origin) {
     return m;
 }
 
-// Turned, stretched, sheared and mirrored ones.
+// ScopedActivity, stretched, sheared and mirrored ones.
 std::vector<Matrix> placements() {
     std::vector<Matrix> all;
     for (std::uint32_t i = 0; i < 12; ++i) {

@@ -8,7 +8,7 @@
 
 #include "tests/modes/stranger.hpp"
 #include "transport/launcher/cluster.hpp"
-#include "transport/launcher/joiners.hpp"
+#include "transport/launcher/join_listener.hpp"
 
 namespace lightnet::joiners_test {
 namespace {
@@ -59,7 +59,7 @@ protected:
     }
 
     SocketContext context;
-    Joiners joiners{context, "tcp://127.0.0.1:*", Pass("the pass of this run's user")};
+    JoinListener joiners{context, "tcp://127.0.0.1:*", Pass("the pass of this run's user")};
     std::string challenge;
     std::vector<std::string> called, lost, turned_down;
     std::map<std::string, std::unique_ptr<JoinedConnection>> connections;

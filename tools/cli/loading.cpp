@@ -86,7 +86,7 @@ Written read_files(const RenderedScene& scene, const std::string& hosts) {
     return with_hosts(std::move(made.graph), std::move(made.problems), hosts);
 }
 
-Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry) {
+Loaded validate_job(Written written, const PictureOptions& wanted, const Registry& registry) {
     auto& [graph, hosts, problems] = written;
     override_picture(graph, registry, wanted);
     Examined found = examine(graph, registry, hosts);

@@ -35,7 +35,7 @@ struct Loaded {
 
 /// Applies what the user wants otherwise, and checks all of it. Throws UserError that names all problems of the graph,
 /// of the hosts and of the way to the scene.
-Loaded make_sound(Written written, const PictureOptions& wanted, const Registry& registry);
+Loaded validate_job(Written written, const PictureOptions& wanted, const Registry& registry);
 /// Hosts that have a name which nobody is called by. It may be known when they are there: no reason not to begin.
 std::vector<Problem> unknown_names(const Hosts& hosts);
 

@@ -10,7 +10,7 @@
 #include "core/film/gains.hpp"
 #include "tools/request/run_request.hpp"
 #include "tools/support/progress.hpp"
-#include "transport/start/troubles.hpp"
+#include "transport/start/fault_injection.hpp"
 
 namespace CLI {
 class App;
@@ -55,7 +55,7 @@ struct RunningOptions {
     std::string hosts;                           // file; "": none
     std::optional<std::uint32_t> threads;        // places in this process; 1: serial
     std::optional<std::uint32_t> local_workers;  // daemons to start here
-    Troubles troubles;                           // of these
+    FaultInjection troubles;                     // of these
     std::string listen;                          // endpoint where hosts may join
     std::string key;                             // file with our own; "": the usual one
     std::string allow;                           // whose hosts may join, see AllowFile; "": who knows the pass

@@ -12,7 +12,7 @@
 namespace lightnet {
 namespace {
 
-constexpr const char* group = "Troubles for local workers, to see what a run does about them";
+constexpr const char* group = "FaultInjection for local workers, to see what a run does about them";
 constexpr std::string_view workers = "worker";  // worker1, worker2, …
 constexpr double most_times = 1000;
 
@@ -64,7 +64,7 @@ void add_trouble(CLI::App& verb, const char* name, std::map<std::uint32_t, doubl
 
 }  // namespace
 
-void add_troubles(CLI::App& verb, Troubles& troubles) {
+void add_troubles(CLI::App& verb, FaultInjection& troubles) {
     const auto set_delay = [&troubles](std::uint32_t delay) { troubles.delay = std::chrono::milliseconds(delay); };
     takes_numbers(verb.add_option_function<std::uint32_t>(
                       "--delay", set_delay, "milliseconds that everything takes longer to and from each of them"),
@@ -79,7 +79,7 @@ void add_troubles(CLI::App& verb, Troubles& troubles) {
                 "a loss is like worker2@30%, from 0 to 100");
 }
 
-std::optional<std::string> mistake_in(const Troubles& troubles, std::uint32_t local_workers) {
+std::optional<std::string> mistake_in(const FaultInjection& troubles, std::uint32_t local_workers) {
     for (const auto& [option, map] : {std::pair{"--slow", &troubles.slow}, {"--lose", &troubles.lose}})
         for (const auto& [number, amount] : *map)
             if (number > local_workers)

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "transport/start/troubles.hpp"
+#include "transport/start/fault_injection.hpp"
 
 namespace CLI {
 class App;
@@ -14,9 +14,9 @@ class App;
 namespace lightnet {
 
 /// --delay, --slow and --lose. They want --local-workers, which the verb must have.
-void add_troubles(CLI::App& verb, Troubles& troubles);
+void add_troubles(CLI::App& verb, FaultInjection& troubles);
 
 /// What is wrong with them when there are so many local workers.
-std::optional<std::string> mistake_in(const Troubles& troubles, std::uint32_t local_workers);
+std::optional<std::string> mistake_in(const FaultInjection& troubles, std::uint32_t local_workers);
 
 }  // namespace lightnet

@@ -18,7 +18,7 @@
 #include "tools/http/watch_rules.hpp"
 #include "tools/request/run_keys.hpp"
 #include "tools/support/progress.hpp"
-#include "transport/start/troubles.hpp"
+#include "transport/start/fault_injection.hpp"
 
 namespace lightnet {
 
@@ -52,7 +52,7 @@ struct RunRequest {
     std::uint32_t threads = 0;                      // places in this process, as many as `hosts` names if it names any
     std::uint32_t local_workers = 0;                // mode network: daemons to start
     std::uint32_t local_places = 0;                 // of each; 0: as many as there are cores, dealt out
-    Troubles troubles;                              // of them
+    FaultInjection troubles;                        // of them
     std::string listen;                             // mode network: endpoint where hosts may join; "": nowhere
     RunKeys keys;                                   // mode network: by which hosts and this process know each other
     std::string pass;                               // file with what hosts must know to join; "": the usual one

@@ -80,7 +80,7 @@ std::string deliver(const Delivery& delivery, const std::string& picture) {
     throw Error("the picture can't be written, nor anywhere else: " + why);
 }
 
-int finish_run(RunBook& book, const RunRequest& request, double exposure, const std::atomic<bool>& hurried) {
+int finish_run(RunRecorder& book, const RunRequest& request, double exposure, const std::atomic<bool>& hurried) {
     Delivery delivery;
     delivery.write = [&](const std::string& picture) { book.write_picture(picture); };
     delivery.patience = request.wait;

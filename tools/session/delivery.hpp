@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tools/request/run_request.hpp"
-#include "tools/session/run_book.hpp"
+#include "tools/session/run_recorder.hpp"
 
 namespace lightnet {
 
@@ -32,6 +32,6 @@ std::string deliver(const Delivery& delivery, const std::string& picture);
 
 /// Writes the picture of a run whose film is complete, and what belongs to it, and sums up; `hurried` ends patience,
 /// `exposure` is that of the PNG, in stops. Returns an exit code. Throws Error when the picture is nowhere.
-int finish_run(RunBook& book, const RunRequest& request, double exposure, const std::atomic<bool>& hurried);
+int finish_run(RunRecorder& book, const RunRequest& request, double exposure, const std::atomic<bool>& hurried);
 
 }  // namespace lightnet

@@ -12,7 +12,7 @@ KeptFiles::KeptFiles(const Graph& graph, const Registry& registry, const SceneDa
     if (!entries_.empty()) scene_ = identity_of(scene);
 }
 
-void KeptFiles::write(const std::function<Bytes(std::size_t node)>& result_of, RunBook& book) const {
+void KeptFiles::write(const std::function<Bytes(std::size_t node)>& result_of, RunRecorder& book) const {
     for (const auto& [node, name, file, kind] : entries_) {
         const Bytes result = result_of(node);
         if (!result) continue;

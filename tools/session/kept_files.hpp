@@ -11,7 +11,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/scene/data/scene_data.hpp"
-#include "tools/session/run_book.hpp"
+#include "tools/session/run_recorder.hpp"
 
 namespace lightnet {
 
@@ -22,7 +22,7 @@ public:
 
     /// Writes them, and says so in the book; `result_of` gives what a node has learnt. Throws Error, also when files of
     /// others are there.
-    void write(const std::function<Bytes(std::size_t node)>& result_of, RunBook& book) const;
+    void write(const std::function<Bytes(std::size_t node)>& result_of, RunRecorder& book) const;
 
 private:
     struct Entry {

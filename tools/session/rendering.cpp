@@ -14,7 +14,7 @@
 #include "core/base/this_machine.hpp"
 #include "core/base/unwanted.hpp"
 #include "core/network/graph/check.hpp"
-#include "core/run/assembly/looker.hpp"
+#include "core/run/assembly/sampling_profiler.hpp"
 #include "core/run/master/master_renderer.hpp"
 #include "core/run/schedule/spot_checks.hpp"
 #include "core/run/serial/serial.hpp"
@@ -42,7 +42,7 @@ std::string who_runs(const Graph& graph) {
 
 }  // namespace
 
-Rendering::Rendering(Assignment what, RunBook& book, const Signals& signals)
+Rendering::Rendering(Assignment what, RunRecorder& book, const Signals& signals)
     : what_(std::move(what)),
       book_(book),
       signals_(signals),
@@ -68,15 +68,15 @@ void Rendering::serially(LoadedScene scene) {
     book_.phase("prepare");
     const auto network = build_network(what_.job, what_.registry, std::move(scene));
     book_.share(network, made_from(what_.job));
-    std::optional<Looker> looker;
-    const Crowd alone{{}, {}, [&] { return std::vector{this_process(1, looker->figures())}; }, {}};
+    std::optional<SamplingProfiler> profiler;
+    const Crowd alone{{}, {}, [&] { return std::vector{this_process(1, profiler->figures())}; }, {}};
     SerialRun run(*network, [&] {
         if (ended()) throw Cancelled{};
-        if (looker) show(alone);
+        if (profiler) show(alone);
     });
     std::optional<PlaceTracer> tracer;
     if (what_.request.tuning.trace) run.trace(tracer.emplace(what_.job.graph, 1 << 16));
-    if (book_.shown()) looker.emplace(std::vector{&run.gauge()});
+    if (book_.shown()) profiler.emplace(std::vector{&run.gauge()});
     run.watch([this](const PrepareProgress& progress) { book_.preparing(progress); });
     book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(what_.job.graph.nodes.size(), {0})},
               what_.job.graph);
@@ -85,7 +85,7 @@ void Rendering::serially(LoadedScene scene) {
         render(run);
     } catch (const Cancelled&) {
     }
-    if (looker) book_.show_last(alone.hosts);
+    if (profiler) book_.show_last(alone.hosts);
     auto counters = run.counters();
     if (tracer) counters.traces.push_back(tracer->take("", 0));
     book_.count(counters);
@@ -152,19 +152,19 @@ ResultCache* Rendering::cache() {
 }
 
 // True when all is prepared, false when the run was stopped, or its time is over.
-bool Rendering::prepare(Conductor& conductor, const Crowd& crowd) {
-    while (!conductor.prepare(50ms)) {
+bool Rendering::prepare(Coordinator& coordinator, const Crowd& crowd) {
+    while (!coordinator.prepare(50ms)) {
         if (ended()) return false;
-        crowd.look_around(conductor.in_force().places_of[image_].size());
-        book_.preparing(with(conductor.progress(), crowd.doing()));
+        crowd.look_around(coordinator.in_force().places_of[image_].size());
+        book_.preparing(with(coordinator.progress(), crowd.doing()));
         show(crowd);
     }
-    for (const auto& [node, hash] : conductor.prepared()) book_.set("prepared." + node, to_hex(hash));
+    for (const auto& [node, hash] : coordinator.prepared()) book_.set("prepared." + node, to_hex(hash));
     return true;
 }
 
 void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd) {
-    Conductor::Options options;
+    Coordinator::Options options;
     options.run = id_;
     options.graph = &what_.job.graph;
     options.registry = &what_.registry;
@@ -173,45 +173,45 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     options.cache = cache();
     options.verify = what_.request.tuning.verify;
     options.say = [this](const std::string& text) { book_.say(text); };
-    Conductor conductor(std::move(options), carrier);
+    Coordinator coordinator(std::move(options), carrier);
     auto tiles = book_.next_step();
-    conductor.begin_pass(TilesByPass(what_.job.graph, what_.registry, tiles).pass());
-    conductor.propose(plan);
-    if (!prepare(conductor, crowd)) return;
+    coordinator.begin_pass(TilesByPass(what_.job.graph, what_.registry, tiles).pass());
+    coordinator.propose(plan);
+    if (!prepare(coordinator, crowd)) return;
     const auto write_kept = [&] {
-        what_.kept.write([&](std::size_t node) { return conductor.last_result(node); }, book_);
+        what_.kept.write([&](std::size_t node) { return coordinator.last_result(node); }, book_);
     };
     if (!what_.request.tuning.verify) write_kept();
     book_.phase("render");
     for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
         TilesByPass passes(what_.job.graph, what_.registry, tiles);
-        while (!passes.empty() && !ended()) hand_out_pass(conductor, passes, crowd);
+        while (!passes.empty() && !ended()) hand_out_pass(coordinator, passes, crowd);
     }
     if (what_.request.tuning.verify && !stopped()) write_kept();  // nobody was found to have lied
 }
 
 // Prepares for the next pass, as far as that is still to be done, and has its tiles rendered.
-void Rendering::hand_out_pass(Conductor& conductor, TilesByPass& passes, const Crowd& crowd) {
+void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, const Crowd& crowd) {
     MasterRenderer::Job job;
     job.run = id_;
     job.image = static_cast<std::uint32_t>(image_);
     job.width = static_cast<std::uint32_t>(what_.format.colours());
     job.tiles = passes.begin_next();
-    conductor.begin_pass(passes.pass());
-    if (!prepare(conductor, crowd)) return;
-    conductor.begin_master();
-    const auto tiles = tiles_per_place(conductor.proposed());
+    coordinator.begin_pass(passes.pass());
+    if (!prepare(coordinator, crowd)) return;
+    coordinator.begin_master();
+    const auto tiles = tiles_per_place(coordinator.proposed());
     job.credit = {tiles, tiles * MasterRenderer::most_together};
     job.check_answers = what_.request.tuning.check_answers;
     job.verify = what_.request.tuning.verify;
     job.alone = [this](const Plan& plan) { return answers_alone(plan, what_.job.graph, image_); };
     if (book_.shown()) job.handed_out = [this](const auto& handed_out) { book_.show_handed_out(handed_out); };
     MasterRenderer* more = nullptr;
-    MasterRenderer master(std::move(job), conductor, [&](const Tile& tile, std::span<const Rgb> pixels) {
+    MasterRenderer master(std::move(job), coordinator, [&](const Tile& tile, std::span<const Rgb> pixels) {
         more->append(passes.sort(book_.take(tile, pixels)));
     });
     more = &master;
-    master.use(conductor.in_force());
+    master.use(coordinator.in_force());
     while (!ended() && !master.work(50ms)) {
         crowd.look_around(master.renderers());
         show(crowd);

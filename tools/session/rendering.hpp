@@ -16,14 +16,14 @@
 #include "core/readers/files/files.hpp"
 #include "core/run/assembly/job.hpp"
 #include "core/run/assembly/load_scene.hpp"
-#include "core/run/master/conductor.hpp"
+#include "core/run/master/coordinator.hpp"
 #include "core/run/master/tiles_by_pass.hpp"
 #include "core/run/message/carrier.hpp"
 #include "core/run/serial/serial.hpp"
 #include "tools/request/run_request.hpp"
 #include "tools/session/crew.hpp"
 #include "tools/session/kept_files.hpp"
-#include "tools/session/run_book.hpp"
+#include "tools/session/run_recorder.hpp"
 #include "tools/support/signals.hpp"
 #include "transport/launcher/cluster.hpp"
 #include "transport/store/result_cache.hpp"
@@ -42,7 +42,7 @@ struct Assignment {
 /// One thread's. Tiles go into the book; a signal ends it early, and so does the book's limit of time.
 class Rendering {
 public:
-    Rendering(Assignment what, RunBook& book, const Signals& signals);
+    Rendering(Assignment what, RunRecorder& book, const Signals& signals);
 
     /// `files`: what was read for the scene. Throws NoWorker or Error.
     void perform(LoadedScene scene, const DiskFiles& files);
@@ -70,15 +70,15 @@ private:
     static HostState this_process(std::uint32_t places, HostFigures figures);
     void render(SerialRun& run);
     void hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd);
-    void hand_out_pass(Conductor& conductor, TilesByPass& passes, const Crowd& crowd);
-    bool prepare(Conductor& conductor, const Crowd& crowd);
+    void hand_out_pass(Coordinator& coordinator, TilesByPass& passes, const Crowd& crowd);
+    bool prepare(Coordinator& coordinator, const Crowd& crowd);
     ResultCache* cache();
     std::uint32_t tiles_per_place(const Plan& plan) const;
     bool stopped() const { return signals_.any; }
     bool ended() const { return stopped() || book_.time_is_over(); }
 
     Assignment what_;
-    RunBook& book_;
+    RunRecorder& book_;
     const Signals& signals_;
     std::size_t image_;
     std::optional<DiskResultCache> cache_;

@@ -21,7 +21,7 @@
 #include "tools/session/delivery.hpp"
 #include "tools/session/kept_files.hpp"
 #include "tools/session/rendering.hpp"
-#include "tools/session/run_book.hpp"
+#include "tools/session/run_recorder.hpp"
 #include "tools/session/run_trace.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/signals.hpp"
@@ -57,7 +57,7 @@ private:
     const Registry& registry_;
     const Signals& signals_;
     FilmFormat format_;
-    RunBook book_;
+    RunRecorder book_;
     std::optional<LiveExplainer> explainer_;
     std::optional<Watcher> watcher_;
     Job job_;

@@ -125,8 +125,8 @@ public:
     HostsBench(const BenchHostsOptions& options, const Launcher& launcher)
         : options_(options),
           launcher_(launcher),
-          loaded_(make_sound(read_files(options.graph, options.running.hosts), options.running.picture,
-                             launcher.registry)) {
+          loaded_(validate_job(read_files(options.graph, options.running.hosts), options.running.picture,
+                               launcher.registry)) {
         check_that_any_host_will_do(loaded_.hosts);
     }
 

@@ -44,7 +44,7 @@ void print_sound(const Loaded& loaded, const Registry& registry, std::ostream& o
 
 int check_graph(const CheckOptions& options, const Launcher& launcher) {
     const auto& registry = launcher.registry;
-    const Loaded loaded = make_sound(read_files(options.graph, options.hosts), options.picture, registry);
+    const Loaded loaded = validate_job(read_files(options.graph, options.hosts), options.picture, registry);
     warn(loaded.warnings, launcher.err);
     DiskFiles files;
     warn(load_scene(loaded.graph, registry, files, scene_file(loaded.graph, registry)).data.warnings, launcher.err);

@@ -52,7 +52,7 @@ std::vector<HostOffer> likely_offers(const DotOptions& options, const Hosts& hos
 
 int draw(const DotOptions& options, const Launcher& launcher) {
     const auto& registry = launcher.registry;
-    const Loaded loaded = make_sound(read_files(options.graph, options.hosts), {}, registry);
+    const Loaded loaded = validate_job(read_files(options.graph, options.hosts), {}, registry);
     warn(loaded.warnings, launcher.err);
     const auto offers = likely_offers(options, loaded.hosts);
     std::map<std::string, std::string> pictures;

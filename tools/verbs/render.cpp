@@ -66,7 +66,7 @@ int render_scene(const RenderOptions& options, const Launcher& launcher) {
     if (!picture.crop) picture.crop = crop_in_pixels(film.crop, *picture.size);
     if (picture.output.empty()) picture.output = picture_of(scene.file);
     RunRequest request =
-        request_of(running, launcher, make_sound(std::move(written), running.picture, launcher.registry));
+        request_of(running, launcher, validate_job(std::move(written), running.picture, launcher.registry));
     request.read = std::move(read);
     return launcher.run(request);
 }

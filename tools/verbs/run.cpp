@@ -30,7 +30,7 @@ void describe_run(CLI::App& app, RunOptions& options) {
 
 int run_graph(const RunOptions& options, const Launcher& launcher) {
     const auto& running = options.running;
-    Loaded loaded = make_sound(read_files(options.graph, running.hosts), running.picture, launcher.registry);
+    Loaded loaded = validate_job(read_files(options.graph, running.hosts), running.picture, launcher.registry);
     return launcher.run(request_of(running, launcher, std::move(loaded)));
 }
 

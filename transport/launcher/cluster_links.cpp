@@ -37,7 +37,7 @@ Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of
     want_descriptors(per_host * options.endpoints.size(),
                      "a run on " + std::to_string(options.endpoints.size()) + " hosts");
     if (!options.listen.empty() && options.join_keys)
-        joiners.emplace(*context, options.listen, Joiners::Door{options.key.value(), *options.join_keys, say_so});
+        joiners.emplace(*context, options.listen, JoinListener::Door{options.key.value(), *options.join_keys, say_so});
     else if (!options.listen.empty())
         joiners.emplace(*context, options.listen, pass_for_joiners(options));
     for (const auto& endpoint : options.endpoints) {
@@ -158,7 +158,7 @@ void Cluster::Links::wait(std::chrono::nanoseconds most) {
 
 void Cluster::Links::take_joiners(Clock::time_point now) {
     if (!joiners) return;
-    const Joiners::Handlers handlers{
+    const JoinListener::Handlers handlers{
         [&](const std::string& endpoint, const HostKey& key) {
             if (links.size() < most_hosts) call(endpoint, key);
         },

@@ -15,7 +15,7 @@
 #include "core/base/log_bounds.hpp"
 #include "transport/launcher/cluster.hpp"
 #include "transport/launcher/host_wait.hpp"
-#include "transport/launcher/joiners.hpp"
+#include "transport/launcher/join_listener.hpp"
 #include "transport/launcher/relays.hpp"
 #include "transport/launcher/remote_host.hpp"
 #include "transport/zmq/socket.hpp"
@@ -32,7 +32,7 @@ struct Cluster::Links {
     Options options;
     RunOffer offer;
     std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
-    std::optional<Joiners> joiners;  // hosts that dial in
+    std::optional<JoinListener> joiners;  // hosts that dial in
     std::vector<std::unique_ptr<HostLink>> links;
     std::map<std::string, State> states;     // as last told
     std::map<std::string, unsigned> losses;  // of hosts that took part

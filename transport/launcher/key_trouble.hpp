@@ -1,4 +1,4 @@
-// Troubles with keys, in words for who can mend them.
+// FaultInjection with keys, in words for who can mend them.
 #pragma once
 
 #include <optional>

@@ -12,8 +12,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/words_of.hpp"
-#include "core/run/assembly/looker.hpp"
 #include "core/run/assembly/place_tracer.hpp"
+#include "core/run/assembly/sampling_profiler.hpp"
 #include "core/run/message/place_name.hpp"
 #include "core/run/place/dispatcher.hpp"
 #include "transport/places/wakeup.hpp"
@@ -47,7 +47,7 @@ struct PlaceThreads::Threads {
     std::uint32_t count;         // of places
     std::vector<Life> lives;     // by place; behind them, the dispatcher's
     std::deque<Gauge> gauges{};  // by place
-    std::unique_ptr<Looker> looker{};
+    std::unique_ptr<SamplingProfiler> profiler{};
     Wakeup news{};
     bool all_serve = false;
     std::atomic<bool> stop{false};
@@ -212,16 +212,16 @@ std::vector<Failure> PlaceThreads::failures() {
 }
 
 void PlaceThreads::watch() {
-    if (threads_->looker) return;
+    if (threads_->profiler) return;
     std::vector<const Gauge*> gauges;
     for (const auto& gauge : threads_->gauges) gauges.push_back(&gauge);
     try {
-        threads_->looker = std::make_unique<Looker>(std::move(gauges));
+        threads_->profiler = std::make_unique<SamplingProfiler>(std::move(gauges));
     } catch (const std::system_error&) {  // no thread is to be had: the run goes on, and nobody sees what they are at
     }
 }
 
-HostFigures PlaceThreads::figures() const { return threads_->looker ? threads_->looker->figures() : HostFigures{}; }
+HostFigures PlaceThreads::figures() const { return threads_->profiler ? threads_->profiler->figures() : HostFigures{}; }
 
 std::uint32_t PlaceThreads::count() const { return threads_->count; }
 

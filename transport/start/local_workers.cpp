@@ -65,7 +65,7 @@ int LocalWorkers::start(const std::string& listen, int* out) const {
 }
 
 LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places, std::optional<Keys> keys,
-                           Troubles troubles, std::string cache)
+                           FaultInjection troubles, std::string cache)
     : program_(std::move(program)),
       places_(places),
       keys_(std::move(keys)),
@@ -174,7 +174,7 @@ void LocalWorkers::begin_troubles() {
     for (auto& worker : workers_) {
         if (!worker.process) continue;
         if (troubles_.delay.count() > 0) {
-            worker.line = std::make_unique<DelayLine>(worker.listens, troubles_.delay);
+            worker.line = std::make_unique<LatencyProxy>(worker.listens, troubles_.delay);
             worker.endpoint = worker.line->endpoint();
         }
         slow_down(worker);
@@ -184,7 +184,7 @@ void LocalWorkers::begin_troubles() {
 void LocalWorkers::slow_down(Worker& worker) {
     const auto number = static_cast<std::uint32_t>(&worker - workers_.data()) + 1;
     if (const auto found = troubles_.slow.find(number); found != troubles_.slow.end())
-        worker.slow = std::make_unique<SlowMotion>(worker.process, found->second);
+        worker.slow = std::make_unique<CpuThrottle>(worker.process, found->second);
 }
 
 // Each once: when it has been started anew, it may stay.

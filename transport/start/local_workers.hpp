@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "transport/keys/key.hpp"
-#include "transport/start/delay_line.hpp"
+#include "transport/start/cpu_throttle.hpp"
+#include "transport/start/fault_injection.hpp"
+#include "transport/start/latency_proxy.hpp"
 #include "transport/start/restarts.hpp"
-#include "transport/start/slow_motion.hpp"
-#include "transport/start/troubles.hpp"
 
 namespace lightnet {
 
@@ -33,7 +33,7 @@ public:
     /// ask for none. `cache`: the folder for their files; "": the usual one. Throws Error when none does: one that ends
     /// by itself, or stays silent, is given up.
     LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places,
-                 std::optional<Keys> keys = std::nullopt, Troubles troubles = {}, std::string cache = {});
+                 std::optional<Keys> keys = std::nullopt, FaultInjection troubles = {}, std::string cache = {});
     /// SIGTERM, then, after a second, SIGKILL.
     ~LocalWorkers();
     LocalWorkers(const LocalWorkers&) = delete;
@@ -61,8 +61,8 @@ private:
         int process = 0;       // 0: has ended
         bool was_of_use = false;
         Restarts restarts{};
-        std::unique_ptr<DelayLine> line = nullptr;
-        std::unique_ptr<SlowMotion> slow = nullptr;
+        std::unique_ptr<LatencyProxy> line = nullptr;
+        std::unique_ptr<CpuThrottle> slow = nullptr;
     };
     void start_all(std::uint32_t count);
     bool await_start(Worker& worker, int out);
@@ -76,7 +76,7 @@ private:
     std::string program_;
     std::uint32_t places_;
     std::optional<Keys> keys_;
-    Troubles troubles_;
+    FaultInjection troubles_;
     std::string cache_;
     std::vector<Worker> workers_;
 };

@@ -5,15 +5,16 @@
 #include <cstddef>
 #include <new>
 
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 
 namespace lightnet::cleaning {
 
-/// in_pieces() of work that takes memory. Throws std::bad_alloc, when all pieces have ended, if there was none for one.
+/// parallel_for() of work that takes memory. Throws std::bad_alloc, when all pieces have ended, if there was none for
+/// one.
 template <class Work>
 void in_large_pieces(std::size_t count, const Work& work, std::size_t piece) {
     std::atomic<bool> lacks_memory{false};
-    in_pieces(
+    parallel_for(
         count,
         [&](std::size_t first, std::size_t last) {
             try {

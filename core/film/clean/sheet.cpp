@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 
 namespace lightnet::cleaning {
 namespace {
@@ -29,7 +29,7 @@ Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, st
     Sheet across(width, height), both(width, height);
     const auto r = static_cast<std::int64_t>(radius), w = std::int64_t{width}, h = std::int64_t{height};
     // Each sum is made anew in the same order, so that a pixel knows nothing of where its row began.
-    in_pieces(
+    parallel_for(
         height,
         [&](std::size_t first, std::size_t last) {
             for (auto y = static_cast<std::int64_t>(first); y < static_cast<std::int64_t>(last); ++y)
@@ -41,7 +41,7 @@ Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, st
                 }
         },
         rows_of_piece);
-    in_pieces(
+    parallel_for(
         height,
         [&](std::size_t first, std::size_t last) {
             for (auto y = static_cast<std::int64_t>(first); y < static_cast<std::int64_t>(last); ++y) {

@@ -18,7 +18,7 @@ constexpr std::size_t most_length = 1024, most_letters = 128;  // as it is, and 
 constexpr int most_nesting = 32;
 
 /// In Heckbert's notation, which goes from the light to the eye.
-struct Turned {
+struct ScopedActivity {
     std::string text;
     std::size_t letters = 0;  // with its repetitions written out
 };
@@ -32,7 +32,7 @@ public:
 
     std::string whole() {
         if (text_.size() > most_length) fail("it is too long");
-        const Turned turned = alternatives();
+        const ScopedActivity turned = alternatives();
         if (at_ != text_.size()) fail("this closes nothing");
         return turned.text;
     }
@@ -61,22 +61,22 @@ private:
         return at_ < text_.size() ? text_[at_++] : '\0';
     }
 
-    Turned alternatives() {
+    ScopedActivity alternatives() {
         if (++nesting_ > most_nesting) fail("it is nested too deeply");
-        Turned all = sequence();
+        ScopedActivity all = sequence();
         while (take('|')) all = either(all, sequence());
         --nesting_;
         return {"(" + all.text + ")", all.letters};
     }
 
-    static Turned either(const Turned& one, const Turned& other) {
+    static ScopedActivity either(const ScopedActivity& one, const ScopedActivity& other) {
         return {one.text + "|" + other.text, one.letters + other.letters};
     }
 
-    Turned sequence() {
-        Turned all;
+    ScopedActivity sequence() {
+        ScopedActivity all;
         while (!next_is('|') && !next_is(')') && at_ < text_.size()) {
-            const Turned one = repeated(atom());
+            const ScopedActivity one = repeated(atom());
             all = {one.text + all.text, one.letters + all.letters};
             if (all.letters > most_letters) fail("it is too long with its repetitions");
         }
@@ -84,7 +84,7 @@ private:
     }
 
     // What it counts is the same in both directions.
-    Turned repeated(Turned one) {
+    ScopedActivity repeated(ScopedActivity one) {
         for (;;) {
             if (next_is('*') || next_is('+') || next_is('?')) {
                 one = {one.text + letter(), 2 * one.letters};
@@ -108,9 +108,9 @@ private:
         return digits;
     }
 
-    Turned atom() {
+    ScopedActivity atom() {
         if (take('(')) {
-            Turned some = alternatives();
+            ScopedActivity some = alternatives();
             if (!take(')')) fail("a ) is missing");
             return some;
         }
@@ -122,7 +122,7 @@ private:
         return scattering(c);
     }
 
-    Turned scattering(char how) {
+    ScopedActivity scattering(char how) {
         if (how == '.') return {"(S|D)", 2};
         if (how != 'D' && how != 'S') {
             if (how) --at_;
@@ -131,9 +131,9 @@ private:
         return {std::string(1, how), 1};
     }
 
-    Turned any_of() {
+    ScopedActivity any_of() {
         if (next_is('^')) fail("sets of what is not meant are not known here: name what is");
-        Turned all = atom();
+        ScopedActivity all = atom();
         while (!take(']')) {
             if (at_ >= text_.size()) fail("a ] is missing");
             all = either(all, atom());
@@ -142,9 +142,9 @@ private:
     }
 
     // <.D>, <L.'key'>: what happens, how, and a label.
-    Turned event() {
+    ScopedActivity event() {
         const char what = letter();
-        Turned turned;
+        ScopedActivity turned;
         if (what == 'L' || what == 'O' || what == 'B') {
             if (!take('.')) fail("a light is written <L.> or <L.'group'>");
             turned = {light(what), 1};

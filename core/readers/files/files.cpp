@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/plain_file.hpp"
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 
 namespace lightnet {
 namespace {
@@ -30,7 +30,7 @@ std::vector<std::byte> Files::beginning(const std::string& path, std::size_t mos
     return {all->begin(), all->begin() + std::ptrdiff_t(std::min(most, all->size()))};
 }
 
-DiskFiles::DiskFiles() : workshop_(std::make_unique<Workshop>(2)) {}
+DiskFiles::DiskFiles() : thread_pool_(std::make_unique<ThreadPool>(2)) {}
 DiskFiles::~DiskFiles() { ended_ = true; }
 
 std::vector<std::byte> DiskFiles::beginning(const std::string& path, std::size_t most) {
@@ -43,7 +43,7 @@ Bytes DiskFiles::read(const std::string& path) {
     if (const auto known = seen_.find(path); known != seen_.end()) return known->second;
     auto bytes = std::make_shared<const std::vector<std::byte>>(PlainFile(path, largest_file).bytes());
     seen_.emplace(path, bytes);
-    workshop_->add([this, bytes, &hash = hashes_[path]] { hash = hash_of(*bytes, ended_); });
+    thread_pool_->add([this, bytes, &hash = hashes_[path]] { hash = hash_of(*bytes, ended_); });
     return bytes;
 }
 
@@ -81,7 +81,7 @@ std::string DiskFiles::real_path(const std::string& path) const {
 }
 
 std::map<std::string, Hash> DiskFiles::hashes() {
-    workshop_->finish();
+    thread_pool_->finish();
     return hashes_;
 }
 

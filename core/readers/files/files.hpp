@@ -16,7 +16,7 @@
 
 namespace lightnet {
 
-class Workshop;
+class ThreadPool;
 
 /// A file that is known to be there, or memory for what is in it, is missing on this machine: nobody may go on as
 /// though there were none, or hosts would render different pictures.
@@ -55,9 +55,9 @@ public:
 
 private:
     std::map<std::string, Bytes> seen_;
-    std::atomic<bool> ended_{false};      // nobody wants hashes any more
-    std::map<std::string, Hash> hashes_;  // its entries stay where they are
-    std::unique_ptr<Workshop> workshop_;  // last: it writes into the others
+    std::atomic<bool> ended_{false};           // nobody wants hashes any more
+    std::map<std::string, Hash> hashes_;       // its entries stay where they are
+    std::unique_ptr<ThreadPool> thread_pool_;  // last: it writes into the others
 };
 
 /// Are they the same but for large and small letters (of ASCII)?

@@ -46,10 +46,10 @@ std::optional<Rgb> absorption_of(Parameters& parameters, const Sources& sources)
 
 Builder::Builder(const Sources& sources)
     : sources_(sources),
-      pictures_(sources_, workshop_),
+      pictures_(sources_, thread_pool_),
       textures_(sources_, scene_, pictures_),
       measurements_(sources_.report),
-      shapes_(sources_, workshop_) {
+      shapes_(sources_, thread_pool_) {
     scene_.film.width = sources_.older() ? 640 : 1280, scene_.film.height = sources_.older() ? 480 : 720;
     Material grey;
     grey.model = DiffuseMaterial{textures_.constant({0.5f, 0.5f, 0.5f}), 0, std::nullopt};

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/readers/common/measurements.hpp"
 #include "core/readers/pbrt/camera.hpp"
 #include "core/readers/pbrt/colour_space.hpp"
@@ -28,7 +28,7 @@ namespace lightnet::pbrt {
 class Builder {
 public:
     explicit Builder(const Sources& sources);
-    ~Builder() { workshop_.finish(); }  // what is under way looks at other members
+    ~Builder() { thread_pool_.finish(); }  // what is under way looks at other members
     Builder(const Builder&) = delete;
     Builder& operator=(const Builder&) = delete;
 
@@ -144,7 +144,7 @@ private:
 
     Sources sources_;
     SceneData scene_;
-    Workshop workshop_;
+    ThreadPool thread_pool_;
     Pictures pictures_;
     Textures textures_;
     Measurements measurements_;

@@ -19,7 +19,7 @@ std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encodi
     Order& order = *orders_.back();
     known_.emplace(key, order.image);
     if (const Bytes bytes = read(order))
-        workshop_.add([this, &order, bytes, encoding] { decode(order, bytes, encoding); });
+        thread_pool_.add([this, &order, bytes, encoding] { decode(order, bytes, encoding); });
     return order.image;
 }
 
@@ -51,7 +51,7 @@ void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding
 }
 
 void Pictures::finish() {
-    workshop_.finish();
+    thread_pool_.finish();
     for (; reported_ < orders_.size(); ++reported_) {
         const Order& order = *orders_[reported_];
         if (order.problem.empty()) continue;

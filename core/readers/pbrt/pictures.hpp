@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/readers/files/files.hpp"
 #include "core/readers/images/image_file.hpp"
 #include "core/readers/pbrt/sources.hpp"
@@ -20,7 +20,7 @@ namespace lightnet::pbrt {
 /// Each file and encoding is decoded once. Called from one thread.
 class Pictures {
 public:
-    Pictures(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
+    Pictures(const Sources& sources, ThreadPool& thread_pool) : sources_(sources), thread_pool_(thread_pool) {}
 
     /// An image that is empty until finish().
     std::shared_ptr<const Image> get(const std::string& name, const Encoding& encoding, const SourceLine& where);
@@ -42,7 +42,7 @@ private:
     void decode(Order& order, const Bytes& bytes, const Encoding& encoding);
 
     const Sources& sources_;
-    Workshop& workshop_;
+    ThreadPool& thread_pool_;
     std::map<Key, std::shared_ptr<const Image>> known_;
     std::vector<std::unique_ptr<Order>> orders_;  // those before `reported_` are finished
     std::size_t reported_ = 0;

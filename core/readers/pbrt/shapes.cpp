@@ -151,7 +151,7 @@ std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placem
     const auto bytes = sources_.read(file, parameters.where());
     if (!bytes) return nullptr;
     auto made = std::make_shared<MadeShape>();
-    workshop_.add([this, made, file, placement, bytes = *bytes] {
+    thread_pool_.add([this, made, file, placement, bytes = *bytes] {
         if (budget_.exceeded()) return;
         try {
             made->geometry = read_mesh(bytes, placement);

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "core/base/math/transform.hpp"
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/sources.hpp"
 #include "core/scene/data/scene_data.hpp"
@@ -40,7 +40,7 @@ private:
     std::atomic<std::uint64_t> taken_ = 0;
 };
 
-/// A shape that was asked for. Meshes in files come later: wait for the workshop before looking.
+/// A shape that was asked for. Meshes in files come later: wait for the thread_pool before looking.
 struct MadeShape {
     std::optional<Geometry> geometry;
     std::string problem;  // why there is none, as far as it isn't reported yet
@@ -49,7 +49,7 @@ struct MadeShape {
 /// Makes the shapes of one scene.
 class Shapes {
 public:
-    Shapes(const Sources& sources, Workshop& workshop) : sources_(sources), workshop_(workshop) {}
+    Shapes(const Sources& sources, ThreadPool& thread_pool) : sources_(sources), thread_pool_(thread_pool) {}
 
     /// The shape of that type, where it stands. None: reported.
     std::shared_ptr<MadeShape> make(const std::string& type, Parameters& parameters, const Placement& placement);
@@ -59,7 +59,7 @@ private:
     std::shared_ptr<MadeShape> ply_mesh(Parameters& parameters, const Placement& placement);
 
     const Sources& sources_;
-    Workshop& workshop_;
+    ThreadPool& thread_pool_;
     Budget budget_;
 };
 

@@ -163,7 +163,7 @@ const LightOp& Assembly::light(std::size_t node) {
 void Assembly::prepare(std::size_t node, Services& services, std::uint32_t pass) {
     const auto& what = network_.graph.nodes[node];
     light(node);
-    std::optional<Turned> turned;
+    std::optional<ScopedActivity> turned;
     if (gauge_) turned.emplace(*gauge_, Gauge::at(node));
     try {
         if (network_.renewed[node]) static_cast<NodeByPass&>(*lights_[node]).begin(pass);

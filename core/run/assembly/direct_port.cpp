@@ -89,7 +89,7 @@ DirectPort::DirectPort(Callee node, std::size_t width, std::uint64_t& count, std
     : node_(node), width_(width), count_(count), pause_(std::move(pause)) {}
 
 Port::Ticket DirectPort::begin(std::span<const Query> questions, std::span<Rgb> answers) {
-    std::optional<Turned> turned;
+    std::optional<ScopedActivity> turned;
     if (node_.gauge) turned.emplace(*node_.gauge, node_.doing);
     const std::size_t most = node_.whole ? questions.size() : chunk;
     for (std::size_t first = 0; first < questions.size(); first += most) {

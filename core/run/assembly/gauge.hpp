@@ -48,7 +48,7 @@ public:
     Gauge(std::size_t node_count, std::size_t edge_count) : nodes(node_count), edges(edge_count) {}
 
     /// Returns what it was at.
-    Doing turn_to(Doing doing) {
+    Doing set_activity(Doing doing) {
         const Doing before = this->doing();
         doing_.store(doing, std::memory_order_relaxed);
         return before;
@@ -69,12 +69,12 @@ private:
 };
 
 /// Until the end of a block, a place is at something else.
-class Turned {
+class ScopedActivity {
 public:
-    Turned(Gauge& gauge, Gauge::Doing doing) : gauge_(gauge), before_(gauge.turn_to(doing)) {}
-    ~Turned() { gauge_.turn_to(before_); }
-    Turned(const Turned&) = delete;
-    Turned& operator=(const Turned&) = delete;
+    ScopedActivity(Gauge& gauge, Gauge::Doing doing) : gauge_(gauge), before_(gauge.set_activity(doing)) {}
+    ~ScopedActivity() { gauge_.set_activity(before_); }
+    ScopedActivity(const ScopedActivity&) = delete;
+    ScopedActivity& operator=(const ScopedActivity&) = delete;
 
 private:
     Gauge& gauge_;

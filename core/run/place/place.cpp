@@ -97,7 +97,7 @@ Port* Place::port_to_sectors(std::size_t node, std::size_t width) {
 Port* Place::port_to_one(std::size_t node, std::size_t width) {
     auto& port = ports_[{node, width}];
     if (!port) {
-        port = std::make_unique<PlannedPort>([=, this] { return direct_port_to(node, width); },
+        port = std::make_unique<RoutingPort>([=, this] { return direct_port_to(node, width); },
                                              [=, this] { return bundle_port_to(node, width); });
         use(node, width, *port);
     }
@@ -177,7 +177,7 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
     const LookingAt looking(&stop);
     const TellingOfLostRays telling(assembly_.keeper_of_lost_rays());
     const auto begun = Clock::now();
-    gauge_.turn_to(Gauge::asking);
+    gauge_.set_activity(Gauge::asking);
     try {
         while (!stopping_ && !stop.load(std::memory_order_relaxed)) work_once(begun);
     } catch (const Cancelled&) {  // outside of fibers: while a plan is taken
@@ -185,7 +185,7 @@ void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& pro
     stopping_ = true;
     record_.lived_ns = nanoseconds_since(begun);
     fibers_.cancel_all();
-    gauge_.turn_to(Gauge::idle);
+    gauge_.set_activity(Gauge::idle);
 }
 
 // For those who watch: a place tells its counters when it has stopped, which may be hours from now.
@@ -211,7 +211,7 @@ void Place::work_once(Clock::time_point begun) {
 
 void Place::wait() {
     const auto begun = Clock::now();
-    const Turned turned(gauge_, fibers_.alive() > 0 ? Gauge::waiting : Gauge::idle);
+    const ScopedActivity turned(gauge_, fibers_.alive() > 0 ? Gauge::waiting : Gauge::idle);
     carrier_.wait(patience());
     (fibers_.alive() ? record_.waited_ns : record_.idle_ns) += nanoseconds_since(begun);
 }

@@ -26,8 +26,8 @@
 #include "core/run/place/bundle_port.hpp"
 #include "core/run/place/place_locks.hpp"
 #include "core/run/place/preparer.hpp"
-#include "core/run/schedule/planned_port.hpp"
 #include "core/run/schedule/remote_channels.hpp"
+#include "core/run/schedule/routing_port.hpp"
 #include "core/run/schedule/sector_port.hpp"
 
 namespace lightnet {
@@ -78,7 +78,7 @@ private:
     // A port to a node of this place whose questions others could answer, too.
     struct Relieved {
         std::size_t node, width;
-        PlannedPort* port;
+        RoutingPort* port;
         std::size_t helpers;
     };
 
@@ -92,7 +92,7 @@ private:
     bool called_here(std::size_t node) const;
     std::vector<std::uint32_t> helpers(std::size_t node) const;
     Plan plan_for(std::size_t node) const;
-    void use(std::size_t node, std::size_t width, PlannedPort& port);
+    void use(std::size_t node, std::size_t width, RoutingPort& port);
     void share_out();
     bool start_own();
     void answer_own(const Relieved& relieved, const Bundle<Query>& bundle);
@@ -150,7 +150,7 @@ private:
     AsksInHand in_hand_;
     std::vector<Inbox> inboxes_;                                                         // by node
     std::vector<std::size_t> by_rank_;                                                   // nodes, lowest rank first
-    std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<PlannedPort>> ports_;  // by node and width
+    std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<RoutingPort>> ports_;  // by node and width
     std::vector<Relieved> relieved_;
     std::vector<std::unique_ptr<DirectPort>> direct_ports_;
     std::vector<std::unique_ptr<SectorPort>> sector_ports_;

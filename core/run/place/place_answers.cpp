@@ -32,7 +32,7 @@ std::vector<Message> Place::next_asks(std::size_t node) {
 
 void Place::answer(std::vector<Message>& asks) {
     auto& inbox = inboxes_[asks.front().node];
-    gauge_.turn_to(Gauge::at(asks.front().node));
+    gauge_.set_activity(Gauge::at(asks.front().node));
     const bool spare = inbox.fibers++ > 0;
     spare_in_use_ += spare;
     std::size_t questions = 0;

@@ -11,7 +11,7 @@ void PlaceLocks::take(Message ask) {
     }
     auto& waiting = waiting_[step.data];
     if (waiting.empty()) {  // it was cancelled meanwhile
-        say(LockWord::Kind::release, step.data);
+        say(LockMessage::Kind::release, step.data);
     } else {
         resume_(waiting.front());
         waiting.pop_front();
@@ -25,25 +25,25 @@ void PlaceLocks::take(Message ask) {
 void PlaceLocks::wait_for(const std::string& name) {
     const Hash lock = content_hash(name);
     waiting_[lock].push_back(fibers_.current());
-    say(LockWord::Kind::want, lock);
+    say(LockMessage::Kind::want, lock);
     fibers_.park();
 }
 
 void PlaceLocks::give_back(const std::string& name) noexcept {
     const Hash lock = content_hash(name);
     if (const auto held = held_.find(lock); held != held_.end() && --held->second == 0) held_.erase(held);
-    say(LockWord::Kind::release, lock);
+    say(LockMessage::Kind::release, lock);
 }
 
 // The launcher knows nothing of this place, whatever has been said before.
 void PlaceLocks::say_all() {
     words_.clear();
-    for (const auto& [lock, times] : held_) words_.push_back({LockWord::Kind::hold, lock});
+    for (const auto& [lock, times] : held_) words_.push_back({LockMessage::Kind::hold, lock});
     for (const auto& [lock, fibers] : waiting_)
-        words_.insert(words_.end(), fibers.size(), {LockWord::Kind::want, lock});
+        words_.insert(words_.end(), fibers.size(), {LockMessage::Kind::want, lock});
 }
 
-void PlaceLocks::say(LockWord::Kind kind, const Hash& lock) {
+void PlaceLocks::say(LockMessage::Kind kind, const Hash& lock) {
     words_.push_back({kind, lock});
     speak();
 }

@@ -12,7 +12,7 @@
 
 #include "core/network/light/locks.hpp"
 #include "core/run/fiber/fiber.hpp"
-#include "core/run/message/lock_word.hpp"
+#include "core/run/message/lock_message.hpp"
 #include "core/run/message/message.hpp"
 
 namespace lightnet {
@@ -33,7 +33,7 @@ protected:
     void give_back(const std::string& name) noexcept override;
 
 private:
-    void say(LockWord::Kind kind, const Hash& lock);
+    void say(LockMessage::Kind kind, const Hash& lock);
     void say_all();
     void speak();
 
@@ -42,7 +42,7 @@ private:
     std::function<void(Message)> reply_;
     std::map<Hash, std::deque<Fibers::Fiber*>> waiting_;
     std::map<Hash, std::size_t> held_;  // how often: twice when a grant came twice
-    std::vector<LockWord> words_;
+    std::vector<LockMessage> words_;
     std::optional<Message> attended_;
 };
 

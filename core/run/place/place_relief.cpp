@@ -48,7 +48,7 @@ Plan Place::plan_for(std::size_t node) const {
     return plan;
 }
 
-void Place::use(std::size_t node, std::size_t width, PlannedPort& port) {
+void Place::use(std::size_t node, std::size_t width, RoutingPort& port) {
     const auto count = called_here(node) ? helpers(node).size() : 0;
     port.use(called_here(node), count > 0);
     if (count == 0) return;

@@ -39,8 +39,9 @@ void Scheduler::happens(const Forgotten& event, Time) {
 
 bool Scheduler::is_at(WorkId work, Replica replica) const {
     const auto found = items_.find(work);
-    return found != items_.end() &&
-           std::ranges::any_of(found->second.copies, [&](CopyId copy) { return ledger_.replica_of(copy) == replica; });
+    return found != items_.end() && std::ranges::any_of(found->second.copies, [&](CopyId copy) {
+               return in_flight_.replica_of(copy) == replica;
+           });
 }
 
 bool Scheduler::is_under_way(WorkId work) const {
@@ -72,7 +73,7 @@ void Scheduler::finish(WorkId work) {
     if (item.waiting) questions_waiting_ -= item.work.questions;
     questions_wanted_ -= item.work.questions;
     suspects_.forget(work);
-    for (const auto copy : item.copies) refresh_due(*ledger_.replica_of(copy));
+    for (const auto copy : item.copies) refresh_due(*in_flight_.replica_of(copy));
 }
 
 // ---- replicas come and go ----
@@ -143,13 +144,13 @@ void Scheduler::happens(const Gone& event, Time) {
 std::size_t Scheduler::under_way(Host host) const {
     std::size_t copies = 0;
     if (const auto found = hosts_.find(host); found != hosts_.end())
-        for (const auto replica : found->second) copies += ledger_.of(replica).size();
+        for (const auto replica : found->second) copies += in_flight_.of(replica).size();
     return copies;
 }
 
 void Scheduler::go(Replica replica, bool died, bool alone) {
     auto& state = replicas_[replica];
-    const Ledger::Account had = ledger_.close_all(replica);
+    const InFlight::Account had = in_flight_.close_all(replica);
     for (const auto& [copy, work] : had.written_off)
         if (const auto item = items_.find(work); item != items_.end()) std::erase(item->second.written_off, copy);
     const Suspects::Loss loss{state.host, state.process, alone};
@@ -194,18 +195,18 @@ void Scheduler::blame(Item& item, const Suspects::Loss& loss) {
 // ---- copies come back ----
 
 // What the copy was of, which does not count it any more; null: that is done.
-Scheduler::Item* Scheduler::item_of(const Ledger::Closed& closed) {
+Scheduler::Item* Scheduler::item_of(const InFlight::Closed& closed) {
     const auto found = items_.find(closed.work);
     return found == items_.end() ? nullptr : &found->second;
 }
 
 void Scheduler::happens(const Replied& event, Time now) {
-    const auto closed = ledger_.close(event.copy);
+    const auto closed = in_flight_.close(event.copy);
     if (!closed) return actions_->push_back(Drop{event.copy});
     auto& replica = replicas_[closed->replica];
     if (closed->copy) measure(closed->replica, *closed->copy, event, now);
     const bool is_first = !times_.any();
-    const auto& account = ledger_.of(closed->replica);
+    const auto& account = in_flight_.of(closed->replica);
     replica.others = event.fill > account.questions ? event.fill - account.questions : 0;
     replica.last_reply = replica.last_sign = now;
     replica.silent = false;
@@ -222,8 +223,8 @@ void Scheduler::happens(const Replied& event, Time now) {
 // The first answer tells about how long what was sent before it will take.
 void Scheduler::expect_again(Time now) {
     for (Replica replica = 0; replica < replicas_.size(); ++replica) {
-        if (ledger_.of(replica).copies.empty()) continue;
-        ledger_.expect(replica, [&](Ledger::Copy& copy) {
+        if (in_flight_.of(replica).copies.empty()) continue;
+        in_flight_.expect(replica, [&](InFlight::Copy& copy) {
             copy.expected = now + completion_time(replica, 0);
             copy.late = copy.sent + late_after(copy.expected - copy.sent);
         });
@@ -232,15 +233,15 @@ void Scheduler::expect_again(Time now) {
 }
 
 // A replica that was never idle has spent on this copy what has passed since its last reply: so many places at once.
-void Scheduler::measure(Replica replica, const Ledger::Copy& copy, const Replied& reply, Time now) {
+void Scheduler::measure(Replica replica, const InFlight::Copy& copy, const Replied& reply, Time now) {
     const double seconds = std::max(now - std::max(copy.sent, replicas_[replica].last_reply), 0.0);
-    const auto at_work = std::min<std::size_t>(replicas_[replica].places, ledger_.of(replica).copies.size() + 1);
+    const auto at_work = std::min<std::size_t>(replicas_[replica].places, in_flight_.of(replica).copies.size() + 1);
     times_.measure(replica, static_cast<double>(at_work) * seconds, reply.answered ? reply.answered : copy.questions,
                    reply.service);
 }
 
 void Scheduler::happens(const Failed& event, Time now) {
-    const auto closed = ledger_.close(event.copy);
+    const auto closed = in_flight_.close(event.copy);
     if (!closed) return actions_->push_back(Drop{event.copy});
     Item* item = item_of(*closed);
     if (item) std::erase(closed->copy ? item->copies : item->written_off, event.copy);
@@ -257,7 +258,7 @@ void Scheduler::happens(const Failed& event, Time now) {
 void Scheduler::happens(const Alive& event, Time now) { replicas_.at(event.replica).last_sign = now; }
 
 void Scheduler::happens(const Refused& event, Time) {
-    const auto closed = ledger_.close(event.copy);
+    const auto closed = in_flight_.close(event.copy);
     if (!closed) return;
     auto& replica = replicas_[closed->replica];
     if (!replica.refused) refused_.push_back(closed->replica);
@@ -293,20 +294,20 @@ void Scheduler::send(Item& item, Replica replica, Time now) {
     const double seconds = completion_time(replica, item.work.questions);
     const double expected = known ? seconds : rules_.guess;
     const double most = known ? rules_.late_factor * times_.spread() * seconds : rules_.patience_at_first;
-    const double patience = state.within_process ? Lowest::none : std::max(state.patience, most);
-    const CopyId id = ledger_.open(replica, {.work = item.work.work,
-                                             .questions = item.work.questions,
-                                             .bytes = item.work.bytes,
-                                             .sent = now,
-                                             .expected = known ? now + expected : Lowest::none,
-                                             .late = now + late_after(expected),
-                                             .overdue = now + patience,
-                                             .patience = patience});
+    const double patience = state.within_process ? TournamentTree::none : std::max(state.patience, most);
+    const CopyId id = in_flight_.open(replica, {.work = item.work.work,
+                                                .questions = item.work.questions,
+                                                .bytes = item.work.bytes,
+                                                .sent = now,
+                                                .expected = known ? now + expected : TournamentTree::none,
+                                                .late = now + late_after(expected),
+                                                .overdue = now + patience,
+                                                .patience = patience});
     if (++state.in_turn >= state.places) state.turn = ++turn_, state.in_turn = 0;
     item.copies.push_back(id);
     refresh(replica);
     for (const auto other : item.copies)
-        if (other != id) refresh_due(*ledger_.replica_of(other));
+        if (other != id) refresh_due(*in_flight_.replica_of(other));
     actions_->push_back(Send{id, item.work.work, replica});
 }
 

@@ -15,12 +15,12 @@
 #include "core/network/graph/strategy.hpp"
 #include "core/run/message/credit.hpp"
 #include "core/run/schedule/hash_ring.hpp"
-#include "core/run/schedule/ledger.hpp"
-#include "core/run/schedule/lowest.hpp"
+#include "core/run/schedule/in_flight.hpp"
 #include "core/run/schedule/schedule_ids.hpp"
 #include "core/run/schedule/service_times.hpp"
 #include "core/run/schedule/stragglers.hpp"
 #include "core/run/schedule/suspects.hpp"
+#include "core/run/schedule/tournament_tree.hpp"
 
 namespace lightnet {
 
@@ -175,7 +175,7 @@ public:
     }
     /// Something was refused, and is to be tried again soon.
     bool refused() const { return !refused_.empty(); }
-    /// When a Tick is due though nothing else happens. Lowest::none: never.
+    /// When a Tick is due though nothing else happens. TournamentTree::none: never.
     Time next_tick() const {
         if (!idle_one() || !is_tail() || !may_be_afforded(1, rules_.tail_saves)) return stragglers_.next_overdue();
         const double later = may_be_afforded(1, 0) ? 0 : rules_.tail_saves;
@@ -202,15 +202,15 @@ public:
     std::optional<double> soonest(std::size_t questions) const;
     /// The replica to which a region belongs; only when there is one.
     Replica home(std::uint64_t region) const { return homes_.owner_of(region); }
-    std::size_t questions_out() const { return ledger_.questions(); }
+    std::size_t questions_out() const { return in_flight_.questions(); }
     /// That are not answered: under way, not sent yet, and those of others that wait at the replicas.
     std::size_t questions_ahead() const;
     std::size_t questions_waiting() const { return questions_waiting_; }
-    std::size_t copies_out() const { return ledger_.copies(); }
+    std::size_t copies_out() const { return in_flight_.copies(); }
     /// Where a copy is that is not forgotten.
-    std::optional<Replica> replica_of(CopyId copy) const { return ledger_.replica_of(copy); }
+    std::optional<Replica> replica_of(CopyId copy) const { return in_flight_.replica_of(copy); }
     /// What a copy is of, as long as it is not forgotten.
-    std::optional<WorkId> work_of(CopyId copy) const { return ledger_.work_of(copy); }
+    std::optional<WorkId> work_of(CopyId copy) const { return in_flight_.work_of(copy); }
     /// Is this work wanted, and not done?
     bool knows(WorkId work) const { return items_.contains(work); }
     /// Is a copy of it under way there, or anywhere?
@@ -266,7 +266,7 @@ private:
     void go(Replica replica, bool died, bool alone);
     void ask_again(Item& item);
     void blame(Item& item, const Suspects::Loss& loss);
-    Item* item_of(const Ledger::Closed& closed);
+    Item* item_of(const InFlight::Closed& closed);
     Item* waiting_item(WorkId work);
     std::size_t under_way(Host host) const;
     bool is_busy(Host host) const;
@@ -274,7 +274,7 @@ private:
     double late_after(double expected) const {
         return std::max(std::max(rules_.late, times_.spread()) * expected, expected + rules_.worth);
     }
-    void measure(Replica replica, const Ledger::Copy& copy, const Replied& reply, Time now);
+    void measure(Replica replica, const InFlight::Copy& copy, const Replied& reply, Time now);
     void write_off_overdue(Time now);
     bool put_off(Replica replica, Time now);
     void ask_idle(Time now);
@@ -295,9 +295,9 @@ private:
     bool is_tail() const { return rules_.double_tail && waiting_.empty() && suspects_.empty() && foreseen_ == 0; }
     std::optional<Replica> idle_one() const;
     bool may_be_afforded(std::size_t questions, double saves) const;
-    double saved_by(Replica idle, const Ledger::Copy& copy, Time now) const;
-    bool may_be_doubled(const Ledger::Copy& copy) const;
-    const Ledger::Copy* worth_doubling(Replica idle, Time now) const;
+    double saved_by(Replica idle, const InFlight::Copy& copy, Time now) const;
+    bool may_be_doubled(const InFlight::Copy& copy) const;
+    const InFlight::Copy* worth_doubling(Replica idle, Time now) const;
 
     void at_home(Replica replica);
     bool has_idle_place(Replica replica) const;
@@ -321,14 +321,14 @@ private:
     std::map<Host, std::set<Replica>> hosts_;
     std::vector<Replica> refused_;
 
-    Ledger ledger_;
+    InFlight in_flight_;
     ServiceTimes times_;
     Stragglers stragglers_;
     Suspects suspects_;
-    HashRing homes_;  // affinity: to whom regions belong
-    Lowest open_;     // replicas that take more work, by the order of the strategy
-    Lowest idle_;     // those of them that have nothing to do, but for the reserve
-    Lowest all_;      // replicas with known speed, open or not, by completion of usual work
+    HashRing homes_;       // affinity: to whom regions belong
+    TournamentTree open_;  // replicas that take more work, by the order of the strategy
+    TournamentTree idle_;  // those of them that have nothing to do, but for the reserve
+    TournamentTree all_;   // replicas with known speed, open or not, by completion of usual work
     std::optional<Replica> reserve_;
     std::size_t present_ = 0, places_ = 0, idle_count_ = 0;
     std::size_t elsewhere_ = 0;  // replicas that are not within the process

@@ -27,24 +27,24 @@ std::optional<double> Scheduler::soonest(std::size_t questions) const {
 }
 
 bool Scheduler::has_idle_place(Replica replica) const {
-    return ledger_.of(replica).copies.size() < replicas_[replica].places;
+    return in_flight_.of(replica).copies.size() < replicas_[replica].places;
 }
 
 // Questions of each of its places.
 double Scheduler::ahead(Replica replica) const {
     const auto& state = replicas_[replica];
-    return static_cast<double>(ledger_.of(replica).questions + state.others) / static_cast<double>(state.places);
+    return static_cast<double>(in_flight_.of(replica).questions + state.others) / static_cast<double>(state.places);
 }
 
 std::size_t Scheduler::questions_ahead() const {
-    std::size_t questions = ledger_.questions() + questions_waiting_;
+    std::size_t questions = in_flight_.questions() + questions_waiting_;
     for (const auto& replica : replicas_) questions += replica.present ? replica.others : 0;
     return questions;
 }
 
 bool Scheduler::open(Replica replica) const {
     const auto& state = replicas_[replica];
-    const auto& account = ledger_.of(replica);
+    const auto& account = in_flight_.of(replica);
     if (!state.present || state.draining || state.refused || suspects_.in_quarantine(state.host)) return false;
     if (account.copies.empty()) return true;
     return !state.silent && account.copies.size() < state.credit.bundles &&
@@ -70,9 +70,9 @@ double Scheduler::order(Replica replica) const {
 void Scheduler::refresh(Replica replica) {
     auto& state = replicas_[replica];
     const bool is_open = open(replica);
-    open_.set(replica, is_open ? order(replica) : Lowest::none);
+    open_.set(replica, is_open ? order(replica) : TournamentTree::none);
     const bool idle = is_open && !state.reserve && has_idle_place(replica);
-    idle_.set(replica, idle ? order(replica) : Lowest::none);
+    idle_.set(replica, idle ? order(replica) : TournamentTree::none);
     idle_count_ = idle_count_ + idle - std::exchange(state.counted_idle, idle);
 
     const bool works =
@@ -80,7 +80,7 @@ void Scheduler::refresh(Replica replica) {
     times_.take_part(replica, works ? state.places : 0);
     // Nothing waits for the reserve, which is asked when the others can't be: it may be the fastest of all.
     const bool known = works && !state.reserve && times_.of(replica) > 0;
-    all_.set(replica, known ? (ahead(replica) + usual_) * times_.assumed(replica) : Lowest::none);
+    all_.set(replica, known ? (ahead(replica) + usual_) * times_.assumed(replica) : TournamentTree::none);
     refresh_due(replica);
 }
 
@@ -98,12 +98,12 @@ void Scheduler::note_size(std::size_t questions) {
 
 void Scheduler::refresh_due(Replica replica) {
     Stragglers::Due due;
-    for (const auto& copy : ledger_.of(replica).copies) {
+    for (const auto& copy : in_flight_.of(replica).copies) {
         due.overdue = std::min(due.overdue, copy.overdue);
         if (!rules_.double_tail || !may_be_doubled(copy)) continue;
         if (replicas_[replica].within_process && elsewhere_ == 0) continue;
         due.late = std::min(due.late, copy.late);
-        if (copy.expected < Lowest::none) due.last = std::max(due.last, copy.expected);
+        if (copy.expected < TournamentTree::none) due.last = std::max(due.last, copy.expected);
     }
     stragglers_.set(replica, due);
 }
@@ -121,7 +121,7 @@ std::optional<Scheduler::Replica> Scheduler::choose(const Item& item) {
         const auto at_home = home(item.work.region);
         const auto questions = item.work.questions;
         if (at_home == best) return best;
-        if (open_.key(at_home) < Lowest::none && item.written_off.empty() &&
+        if (open_.key(at_home) < TournamentTree::none && item.written_off.empty() &&
             completion_time(at_home, questions) <= overloaded * completion_time(best, questions))
             return at_home;
         ++counts_.spilled;
@@ -137,8 +137,8 @@ Scheduler::Replica Scheduler::best_for(const Item& item) {
     if (item.copies.empty() && item.written_off.empty()) return best;
     std::vector<Replica> holders;
     for (const auto* copies : {&item.copies, &item.written_off})
-        for (const auto copy : *copies) holders.push_back(*ledger_.replica_of(copy));
-    for (const auto holder : holders) open_.set(holder, Lowest::none);
+        for (const auto copy : *copies) holders.push_back(*in_flight_.replica_of(copy));
+    for (const auto holder : holders) open_.set(holder, TournamentTree::none);
     if (open_.any()) best = static_cast<Replica>(open_.first());
     for (const auto holder : holders) refresh(holder);
     return best;
@@ -165,7 +165,7 @@ bool Scheduler::waits_for_idle(const Item& item, Replica replica) const {
 
 // ---- speculative execution ----
 
-bool Scheduler::may_be_doubled(const Ledger::Copy& copy) const {
+bool Scheduler::may_be_doubled(const InFlight::Copy& copy) const {
     const auto found = items_.find(copy.work);
     return found != items_.end() && found->second.work.not_at.empty() && !suspects_.is_suspect(copy.work) &&
            found->second.copies.size() == 1;
@@ -178,29 +178,29 @@ bool Scheduler::may_be_afforded(std::size_t questions, double saves) const {
 }
 
 // Seconds, as far as can be foreseen: who is late already may be so for as long again.
-double Scheduler::saved_by(Replica idle, const Ledger::Copy& copy, Time now) const {
+double Scheduler::saved_by(Replica idle, const InFlight::Copy& copy, Time now) const {
     if (copy.late <= now) return now - copy.late;
     return copy.expected - now - completion_time(idle, copy.questions);
 }
 
 // What `idle` could do: a copy that is late, if `idle` takes no longer than it was to take; else the one that is
 // expected last, if `idle` would win more time than it spends.
-const Ledger::Copy* Scheduler::worth_doubling(Replica idle, Time now) const {
-    const auto find = [&](Replica replica, const auto& is_meant) -> const Ledger::Copy* {
+const InFlight::Copy* Scheduler::worth_doubling(Replica idle, Time now) const {
+    const auto find = [&](Replica replica, const auto& is_meant) -> const InFlight::Copy* {
         if (replicas_[replica].within_process && replicas_[idle].within_process) return nullptr;
-        for (const auto& copy : ledger_.of(replica).copies)
+        for (const auto& copy : in_flight_.of(replica).copies)
             if (may_be_doubled(copy) && is_meant(copy) &&
                 !items_.at(copy.work).failed_at.contains(replicas_[idle].host))
                 return &copy;
         return nullptr;
     };
-    const auto needs = [&](const Ledger::Copy& copy) { return completion_time(idle, copy.questions); };
+    const auto needs = [&](const InFlight::Copy& copy) { return completion_time(idle, copy.questions); };
     if (const Time late = stragglers_.late(); late <= now)
         if (const auto* copy = find(stragglers_.late_at(), [&](const auto& one) { return one.late == late; });
             copy && needs(*copy) <= copy->expected - copy->sent)
             return copy;
     const Time last = stragglers_.last();
-    if (times_.of(idle) == 0 || last == -Lowest::none) return nullptr;
+    if (times_.of(idle) == 0 || last == -TournamentTree::none) return nullptr;
     const auto* copy = find(stragglers_.last_at(), [&](const auto& one) { return one.expected == last; });
     return copy && now + 2 * needs(*copy) + rules_.worth < last ? copy : nullptr;
 }
@@ -215,7 +215,7 @@ std::optional<Scheduler::Replica> Scheduler::idle_one() const {
 std::optional<Scheduler::Replica> Scheduler::idle_elsewhere() const {
     std::optional<Replica> idle;
     for (Replica replica = 0; replica < replicas_.size(); ++replica)
-        if (!replicas_[replica].within_process && idle_.key(replica) < Lowest::none &&
+        if (!replicas_[replica].within_process && idle_.key(replica) < TournamentTree::none &&
             (!idle || idle_.key(replica) < idle_.key(*idle)))
             idle = replica;
     return idle;

@@ -14,7 +14,7 @@ void Scheduler::write_off_overdue(Time now) {
         const auto replica = stragglers_.overdue_at();
         if (put_off(replica, now)) continue;
         auto& state = replicas_[replica];
-        const auto copy = ledger_.write_off_first(replica);
+        const auto copy = in_flight_.write_off_first(replica);
         if (state.last_reply <= copy.sent) {
             state.silent = true;
             state.patience = std::max(state.patience, 2 * (now - copy.sent));
@@ -33,7 +33,7 @@ void Scheduler::write_off_overdue(Time now) {
 // Who has shown meanwhile that it works is waited for from then on. False: nobody has.
 bool Scheduler::put_off(Replica replica, Time now) {
     bool later = false;
-    ledger_.expect(replica, [&](Ledger::Copy& copy) {
+    in_flight_.expect(replica, [&](InFlight::Copy& copy) {
         const Time overdue = std::max(copy.sent, replicas_[replica].last_sign) + copy.patience;
         later |= copy.overdue <= now && overdue > now;
         copy.overdue = std::max(copy.overdue, overdue);
@@ -64,9 +64,9 @@ void Scheduler::ask_idle(Time now) {
 // One that has not got this work already, unless nobody else is there.
 std::optional<Scheduler::Replica> Scheduler::idle_for(const Item& item) {
     std::set<Replica> holders;
-    for (const auto copy : item.written_off) holders.insert(*ledger_.replica_of(copy));
+    for (const auto copy : item.written_off) holders.insert(*in_flight_.replica_of(copy));
     if (holders.size() == present_) holders.clear();
-    for (const auto holder : holders) idle_.set(holder, Lowest::none);
+    for (const auto holder : holders) idle_.set(holder, TournamentTree::none);
     auto idle = idle_one();
     if (idle && holders.contains(*idle)) idle.reset();  // the reserve
     for (const auto holder : holders) refresh(holder);
@@ -158,7 +158,7 @@ void Scheduler::test_suspects(Time now) {
 bool Scheduler::is_busy(Host host) const {
     const auto& replicas = hosts_.at(host);
     return std::any_of(replicas.begin(), replicas.end(),
-                       [&](auto replica) { return !ledger_.of(replica).copies.empty(); });
+                       [&](auto replica) { return !in_flight_.of(replica).copies.empty(); });
 }
 
 void Scheduler::put_in_quarantine(Host host) {

@@ -173,7 +173,7 @@ std::vector<Rgb> SerialRun::render(const Tile& tile) {
 std::vector<Rgb> SerialRun::render_as_prepared(const Tile& tile) {
     std::vector<Rgb> pixels(tile.pixels() * network_.width_of(image_));
     const auto begun = std::chrono::steady_clock::now();
-    const Turned turned(gauge_, Gauge::at(image_));
+    const ScopedActivity turned(gauge_, Gauge::at(image_));
     const TellingOfLostRays telling(assembly_.keeper_of_lost_rays());
     assembly_.renderer(image_).render(tile, pixels);
     rendered_ns_ += static_cast<std::uint64_t>((std::chrono::steady_clock::now() - begun).count());

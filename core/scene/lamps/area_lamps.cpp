@@ -5,8 +5,8 @@
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/lamps/ball_lamp.hpp"
+#include "core/scene/lamps/prefix_cdf.hpp"
 #include "core/scene/lamps/quadric_lamp.hpp"
-#include "core/scene/lamps/shares.hpp"
 #include "core/scene/surfaces/fetch_ahead.hpp"
 #include "core/scene/surfaces/triangle.hpp"
 #include "core/scene/textures/look_up.hpp"
@@ -107,7 +107,7 @@ void AreaLamps::add(std::uint32_t shape, const Mesh* placed) {
         areas.push_back(double{area_of(facets_.back())});
     }
     ends_.resize(facets_.size(), 1);
-    running_shares(std::span<const double>(areas), std::span(ends_).subspan(first));
+    prefix_cdf(std::span<const double>(areas), std::span(ends_).subspan(first));
     if (count > 0) add_source(shape, 1, count);
 }
 

@@ -2,7 +2,7 @@
 
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/sky_layout.hpp"
-#include "core/scene/lamps/shares.hpp"
+#include "core/scene/lamps/prefix_cdf.hpp"
 
 #include <algorithm>
 #include <array>
@@ -120,12 +120,12 @@ void Environment::weigh() {
             row[x] = std::max(0.0, row[x] - mean);
         }
         const double angle = row_solid_angle(std::uint32_t(y));
-        rows[y] = running_shares(std::span<const double>(row), std::span(columns_).subspan(y * w, w)) * angle;
+        rows[y] = prefix_cdf(std::span<const double>(row), std::span(columns_).subspan(y * w, w)) * angle;
         all += in_row * angle;
         bright += rows[y];
     }
     bright_share_ = all > 0 ? float(bright / all) : 0;
-    running_shares(rows, rows_);
+    prefix_cdf(rows, rows_);
     mark_all();
 }
 

@@ -1,7 +1,7 @@
 #include "core/scene/lamps/light_tree.hpp"
 
 #include "core/base/math/columns.hpp"
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/scene/lamps/light_importance.hpp"
 #include "core/scene/lamps/light_tree_builder.hpp"
 
@@ -240,7 +240,7 @@ LightTree::LightTree(const std::vector<LightBounds>& lights) {
     }
     place_of_.assign(lights.size(), none);
     nodes_ = LightTreeBuilder(lights).build();
-    in_pieces(nodes_.size(), [&](std::size_t first, std::size_t last) {
+    parallel_for(nodes_.size(), [&](std::size_t first, std::size_t last) {
         for (auto n = std::uint32_t(first); n < last; ++n)
             for (std::uint32_t i = 0; i < width; ++i)
                 if (nodes_[n].leaves >> i & 1) place_of_[nodes_[n].child[i]] = n * width + i;

@@ -1,7 +1,7 @@
 #include "core/scene/lamps/light_tree_builder.hpp"
 
+#include "core/base/thread_pool.hpp"
 #include "core/base/unwanted.hpp"
-#include "core/base/workshop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -235,7 +235,7 @@ std::vector<LightTree::Node> LightTreeBuilder::build() {
         const auto some = [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) work(i);
         };
-        in_pieces(left.size(), some, 1);
+        parallel_for(left.size(), some, 1);
     };
     each([&](std::size_t i) {
         std::vector<Below> none;

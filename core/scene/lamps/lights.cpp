@@ -2,10 +2,10 @@
 
 #include "core/base/math/frame.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/base/workshop.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/scene/lamps/bare_lights.hpp"
 #include "core/scene/lamps/lamp_points.hpp"
-#include "core/scene/lamps/shares.hpp"
+#include "core/scene/lamps/prefix_cdf.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,19 +47,19 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
         maps_.push_back(std::uint32_t(environments_.size() - 1));
         light_of_maps.push_back(luminance(environment.total()));
     }
-    running_shares(light_of_maps, map_ends_);
+    prefix_cdf(light_of_maps, map_ends_);
     build_tree();
 
     std::vector<double> by_power(count());
-    in_pieces(by_power.size(), [&](std::size_t first, std::size_t last) {
+    parallel_for(by_power.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) by_power[i] = luminance(power(i));
     });
-    running_shares(by_power, power_ends_);
+    prefix_cdf(by_power, power_ends_);
 }
 
 void Lights::build_tree() {
     std::vector<LightBounds> bounds(lamps_.size());
-    in_pieces(lamps_.size(), [&](std::size_t first, std::size_t last) {
+    parallel_for(lamps_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) bounds[i] = lamps_.bounds(i);
     });
     for (const auto& light : near_) bounds.push_back(std::visit([](const auto& l) { return bounds_of(l); }, light));

@@ -1,0 +1,67 @@
+// A thread pool, for what is independent: a reader goes on through its file while images and meshes are decoded.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace lightnet {
+
+/// Does tasks in any order, on threads of its own, as far as the system gives them, which end with it. What depends on
+/// the order belongs behind finish(). Called from one thread; tasks share nothing but what never changes, and throw
+/// nothing, but for Cancelled: they are unwanted when their giver's work is (core/base/unwanted.hpp), and what of them
+/// has not begun then is left out.
+class ThreadPool {
+public:
+    /// 0 threads: as many as it may use cores, but a few at most. The caller's own counts as one.
+    explicit ThreadPool(unsigned threads = 0);
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
+
+    /// Takes a task; does it at once when too much is waiting, so that what waits stays small: then it may throw
+    /// Cancelled.
+    void add(std::function<void()> task);
+    /// Returns when all tasks are done; the caller helps. Throws Cancelled when some were not, as they were unwanted.
+    void finish();
+
+private:
+    static constexpr std::size_t most_waiting = 64;
+    struct Task {
+        std::function<void()> work;
+        const std::atomic<bool>* unwanted;
+    };
+
+    void work(const std::stop_token& stop);
+    void start_thread();
+    bool do_one(std::unique_lock<std::mutex>& lock);
+    static bool is_done(const Task& task);
+
+    std::mutex tasks_mutex_;
+    std::condition_variable_any came_;
+    std::condition_variable done_;
+    std::deque<Task> tasks_;
+    std::size_t under_way_ = 0;
+    bool given_up_ = false;  // a task was not done
+    unsigned most_threads_;
+    std::vector<std::jthread> threads_;  // started when there is work; first to go
+};
+
+/// Calls work(first, last) for pieces of 0 … `count`, on all cores if there is more than one. It must not throw,
+/// but for Cancelled, which comes back to the caller.
+template <class Work>
+void parallel_for(std::size_t count, const Work& work, std::size_t piece = 1 << 14) {
+    if (count <= piece) return work(0, count);
+    ThreadPool thread_pool;
+    for (std::size_t first = 0; first < count; first += piece)
+        thread_pool.add([&work, first, last = std::min(count, first + piece)] { work(first, last); });
+    thread_pool.finish();
+}
+
+}  // namespace lightnet
