@@ -22,6 +22,7 @@ packages=(
 packages_of_tests=(
     graphviz python3-jsonschema prometheus              # drawings, reports, metrics as their own programs read them
     python3-openimageio python3-numpy                   # pictures, as another library reads them
+    clang-format                                        # how sources are laid out
     iproute2                                            # network namespaces: hosts of their own
     openssh-client openssh-server python3-yaml          # hosts by ssh; what deploys farms
     slurm-client slurmctld slurmd munge                 # a queue

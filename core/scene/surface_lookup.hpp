@@ -11,9 +11,9 @@
 
 namespace lightnet {
 
-/// Belongs to one piece of work at a time, such as the answer to one question. What it was given is found again exactly:
-/// the same surface point, to the bit, by the same position; of two at one position, the last. Any other position means
-/// the nearest surface within `reach`.
+/// Belongs to one piece of work at a time, such as the answer to one question. What it was given is found again
+/// exactly: the same surface point, to the bit, by the same position; of two at one position, the last. Any other
+/// position means the nearest surface within `reach`.
 class SurfaceLookup {
 public:
     /// Of the scene's radius: the steps by which old code keeps off surfaces are smaller.

@@ -239,8 +239,8 @@ TEST_F(WrapTest, LetsCallsOfAProcessThatShareGlobalsGoOnOneAtATime) {
     const Kind kind = wrap<old::Picky>("Picky", {.help = "x", .alone = "globals"});
     EXPECT_TRUE(kind.run.locks);
     EXPECT_FALSE(wrap<old::Picky>("Picky", {}).run.locks);
-    const auto light = kind.make_light(
-        here({.locks = &locks, .whereabouts = [] { return Whereabouts{.process = "onyx1 4711"}; }}));
+    const auto light =
+        kind.make_light(here({.locks = &locks, .whereabouts = [] { return Whereabouts{.process = "onyx1 4711"}; }}));
     EXPECT_EQ(answers_of(*light, questions(5)).size(), 5u);
     EXPECT_EQ(locks.names, std::vector<std::string>{"globals of onyx1 4711"}) << "once for all questions of a call";
     EXPECT_EQ(locks.held, 0);

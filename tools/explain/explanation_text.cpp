@@ -87,7 +87,9 @@ private:
         std::string all;
         const auto& layers = pixel_.network->layers.of_node[asked.asked];
         for (std::size_t k = 0; k < asked.answer.size(); ++k)
-            all += (k ? ", " : "") + lightnet::name_of(layers[k], pixel_.network->layers, graph_, pixel_.network->registry) + " " + text_of(asked.answer[k]);
+            all += (k ? ", " : "") +
+                   lightnet::name_of(layers[k], pixel_.network->layers, graph_, pixel_.network->registry) + " " +
+                   text_of(asked.answer[k]);
         return all;
     }
 

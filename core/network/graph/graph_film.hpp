@@ -23,7 +23,6 @@ struct GraphFilm {
     std::optional<Window> crop{};         // none: the whole image
     std::vector<Gain> gains{};            // of layers; those that are not named have 1
     PictureStorage storage{};             // of the file
-    bool clean = false;                   // the picture is cleaned, too, and has all that this needs
     friend bool operator==(const GraphFilm&, const GraphFilm&) = default;
 };
 

@@ -113,7 +113,7 @@ struct RunTraits {
 struct Kind {
     std::string name;  // "DirectLighting"
     Role role = Role::light;
-    std::string help;  // what it does, one line
+    std::string help;         // what it does, one line
     std::string plugin = {};  // that it comes from: name, version and hash of the library; "": the program itself
     InputCount inputs = {};
     std::vector<Param> params = {};

@@ -26,16 +26,16 @@ struct Terminal {
 
 /// What the image's layers are, and which of them pass through each node. Depends on the graph alone.
 struct Layers {
-    std::vector<std::string> film;   // "emission", then the terminals of the additive paths, graph order: "direct". Of
-                                     // what keeps groups of lamps apart, one for each: "direct.key", "direct.rest".
-                                     // What the same light path expression takes is one
+    std::vector<std::string> film;  // "emission", then the terminals of the additive paths, graph order: "direct". Of
+                                    // what keeps groups of lamps apart, one for each: "direct.key", "direct.rest".
+                                    // What the same light path expression takes is one
     std::vector<std::uint32_t> of_colour;  // per colour that reaches the renderer (its own, then its terminals'): the
                                            // layer that it is added to
-    std::vector<std::size_t> shown;  // nodes whose images stand beside the sum, behind the layers of the film
-    std::vector<std::uint32_t> ids;  // of each of those: how many ids a pixel keeps of it; 0: it is one colour
-    std::vector<std::uint32_t> halved;  // of which colours the second half of the samples is kept, too: see
-                                        // add_cleaning(). Those halves stand behind all that is shown
-    bool alpha = false;              // the last colour says how much of a pixel surfaces cover
+    std::vector<std::size_t> shown;        // nodes whose images stand beside the sum, behind the layers of the film
+    std::vector<std::uint32_t> ids;        // of each of those: how many ids a pixel keeps of it; 0: it is one colour
+    std::vector<std::uint32_t> halved;     // of which colours the second half of the samples is kept, too: see
+                                           // add_cleaning(). Those halves stand behind all that is shown
+    bool alpha = false;                    // the last colour says how much of a pixel surfaces cover
     std::vector<std::vector<Terminal>> of_node;  // per node: the terminals that its answers keep apart
     std::size_t emission = 1;                    // how many layers the renderer's own light has, the first ones
     std::size_t groups = 1;                      // of lamps, that nodes keep apart who do
