@@ -49,9 +49,9 @@ struct Wall {
 
 /// What is met first in some directions from a point, by one triangle after the other: whoever has read a scene can ask
 /// before anything is built of it.
-class Surroundings {
+class RoomWalls {
 public:
-    Surroundings(Vec3 from, std::vector<Vec3> directions)
+    RoomWalls(Vec3 from, std::vector<Vec3> directions)
         : from_(from), directions_(std::move(directions)), walls_(directions_.size()) {}
 
     /// Moller & Trumbore 1997.
@@ -76,7 +76,7 @@ private:
 
 constexpr std::size_t most_triangles = 4'000'000;  // that are looked at: some seconds
 
-void look_at(Surroundings& around, const Shape& shape, const Matrix& to_world) {
+void look_at(RoomWalls& around, const Shape& shape, const Matrix& to_world) {
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
     if (!mesh) return;
     const bool turned = mesh->flip_normals != swaps_handedness(to_world);
@@ -99,7 +99,7 @@ std::optional<CameraData> camera_in_room(const SceneData& scene, const Box& box)
                 if (x || y || z) directions.push_back(normalize({float(x), float(y), float(z)}));
     const Vec3 back = normalize({0.55f, 0.1f, 1});
     directions.push_back(back);
-    Surroundings around(box.center(), std::move(directions));
+    RoomWalls around(box.center(), std::move(directions));
     each_placed(scene, [&](const Shape& shape, const Matrix& to_world) { look_at(around, shape, to_world); });
     const auto& walls = around.walls();
     const auto closed =

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -77,6 +78,23 @@ TEST(Clean, KeepsAStepThatNothingElseShows) {
     }
     EXPECT_NEAR(left, 0.1, 0.02);
     EXPECT_NEAR(right, 0.8, 0.04);
+}
+
+TEST(Clean, SpreadsAFireflyAndKeepsItsLight) {
+    const Rgb grey{0.5f, 0.5f, 0.5f};
+    Picture noisy = rendered(64, 64, {{"direct", [&](auto, auto) { return grey; }}}, 0.2f);
+    const std::size_t place = 64 * 30 + 33;
+    noisy.layers[0].pixels[place] += Rgb{300, 200, 100};  // in the first half alone
+    make_beauty(noisy);
+    const Picture cleaned = clean(noisy).picture;
+    float brightest = 0;
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < noisy.beauty.size(); ++i) {
+        brightest = std::max(brightest, cleaned.beauty[i].r);
+        before += double{noisy.beauty[i].r}, after += double{cleaned.beauty[i].r};
+    }
+    EXPECT_LT(brightest, 300.0f / 20);
+    EXPECT_NEAR(after / before, 1, 0.05);
 }
 
 TEST(Clean, KeepsATextureThatIsInAFeature) {

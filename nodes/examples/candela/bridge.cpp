@@ -76,8 +76,8 @@ private:
 };
 
 /// What an instance of any of its classes finds around it.
-struct Surroundings {
-    Surroundings(const NodeContext& here, OneByOne& inputs)
+struct CandelaWorld {
+    CandelaWorld(const NodeContext& here, OneByOne& inputs)
         : lookup(here.scene()), world(here.scene(), lookup), input(inputs, lookup) {}
     SurfaceLookup lookup;
     World world;
@@ -86,26 +86,26 @@ struct Surroundings {
 };
 
 template <class T>
-T made(const NodeContext& here, Surroundings& around);
+T made(const NodeContext& here, CandelaWorld& around);
 
 template <>
-candela::OpenGlow made(const NodeContext& here, Surroundings& around) {
+candela::OpenGlow made(const NodeContext& here, CandelaWorld& around) {
     return {around.world, static_cast<int>(here.integer("rays")), here.number("near")};
 }
 template <>
-candela::DirectGlow made(const NodeContext& here, Surroundings& around) {
+candela::DirectGlow made(const NodeContext& here, CandelaWorld& around) {
     return {around.world, around.world, around.dice, static_cast<int>(here.integer("rays"))};
 }
 template <>
-candela::GatheredGlow made(const NodeContext& here, Surroundings& around) {
+candela::GatheredGlow made(const NodeContext& here, CandelaWorld& around) {
     return {around.world, around.input, around.dice, static_cast<int>(here.integer("rays"))};
 }
 template <>
-candela::DimmedGlow made(const NodeContext& here, Surroundings& around) {
+candela::DimmedGlow made(const NodeContext& here, CandelaWorld& around) {
     return {around.input, here.number("strength"), here.number("limit")};
 }
 template <>
-candela::Eye made(const NodeContext& here, Surroundings& around) {
+candela::Eye made(const NodeContext& here, CandelaWorld& around) {
     return {around.world, around.input, static_cast<int>(here.integer("mirrors"))};
 }
 
@@ -130,7 +130,7 @@ struct Bridge<T> {
 private:
     const Scene& scene_;
     OneByOne& inputs_;
-    Surroundings around_;
+    CandelaWorld around_;
     T instance_;
 };
 
@@ -147,7 +147,7 @@ struct Bridge<candela::Eye> {
 
 private:
     const Scene& scene_;
-    Surroundings around_;
+    CandelaWorld around_;
     candela::Eye instance_;
 };
 

@@ -1,0 +1,84 @@
+// Pictures are cleaned beside a run, later, and after mixing: the same bytes each time, whoever rendered.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/modes/daemons.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+class CleanRun : public ::testing::Test {
+protected:
+    void render(const Words& more) const {
+        Words words{"--size", "40x32", "--samples", "8", "--clean"};
+        words.insert(words.end(), more.begin(), more.end());
+        Process run(launch_words(graph_file("cornell.lua"), folder / "x.exr", words));
+        ASSERT_EQ(run.wait(), 0) << run.output();
+    }
+    std::string cleaned_in_run(const Words& more) const {
+        render(more);
+        return bytes_of(folder / "x.clean.exr");
+    }
+    std::string made(const Words& words, int code = 0) const {
+        Words all{program("lightnet")};
+        all.insert(all.end(), words.begin(), words.end());
+        Process run(all);
+        EXPECT_EQ(run.wait(), code) << run.output();
+        return run.output();
+    }
+    const Folder folder;
+};
+
+TEST_F(CleanRun, GivesTheSameBytesInEveryMode) {
+    const auto serial = cleaned_in_run({"--threads", "1"});
+    EXPECT_FALSE(serial.empty());
+    EXPECT_EQ(cleaned_in_run({"--threads", "3", "--tile", "11"}), serial);
+    EXPECT_EQ(cleaned_in_run({"--local-workers", "2"}), serial);
+}
+
+TEST_F(CleanRun, IsWhatTheVerbMakesLater) {
+    const auto beside = cleaned_in_run({"--threads", "2"});
+    made({"clean", folder / "x.exr", "-o", folder / "later.exr"});
+    EXPECT_EQ(bytes_of(folder / "later.exr"), beside);
+    EXPECT_TRUE(std::filesystem::exists(folder / "later.png"));
+}
+
+TEST_F(CleanRun, ChangesNoLayerOfTheNoisyPicture) {
+    render({"--threads", "2"});
+    Process plain(launch_words(graph_file("cornell.lua"), folder / "plain.exr",
+                               {"--size", "40x32", "--samples", "8", "--threads", "2"}));
+    ASSERT_EQ(plain.wait(), 0) << plain.output();
+    EXPECT_EQ(bytes_of(folder / "x.png"), bytes_of(folder / "plain.png"));
+    EXPECT_THAT(made({"compare", folder / "plain.exr", folder / "x.exr"}), HasSubstr("bits equal"));
+}
+
+TEST_F(CleanRun, MayBeMixedBeforeOrAfterwards) {
+    render({"--threads", "2"});
+    const Words gains{"direct=0.25", "bounce=3,2,1"};
+    const auto mixed = [&](const std::string& from, const std::string& to) {
+        Words words{"remix", folder / from, "-o", folder / to};
+        words.insert(words.end(), gains.begin(), gains.end());
+        made(words);
+    };
+    mixed("x.clean.exr", "clean_then_mixed.exr");
+    mixed("x.exr", "mixed.exr");
+    made({"clean", folder / "mixed.exr", "-o", folder / "mixed_then_clean.exr"});
+    EXPECT_EQ(bytes_of(folder / "clean_then_mixed.exr"), bytes_of(folder / "mixed_then_clean.exr"));
+}
+
+TEST_F(CleanRun, RefusesWhatIsCleanAndSaysWhatIsLacking) {
+    render({"--threads", "2"});
+    EXPECT_THAT(made({"clean", folder / "x.clean.exr"}, 2), HasSubstr("is clean already"));
+    EXPECT_THAT(made({"clean", folder / "x.exr", "-o", folder / "x.exr"}, 2), HasSubstr("would be lost"));
+    Process plain(launch_words(graph_file("cornell.lua"), folder / "plain.exr", {"--size", "24x24", "--samples", "4"}));
+    ASSERT_EQ(plain.wait(), 0) << plain.output();
+    EXPECT_THAT(made({"clean", folder / "plain.exr"}), HasSubstr("halves"));
+}
+
+}  // namespace
+}  // namespace lightnet::test
