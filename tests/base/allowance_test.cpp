@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <string>
 
-#include "core/base/own_process.hpp"
 #include "core/base/this_machine.hpp"
 #include "tests/support/folder.hpp"
 
@@ -154,26 +153,6 @@ TEST(Allowance, ReadsHowManyThreadsAGroupMayHave) {
     EXPECT_EQ(threads_of_group(machine.files), std::nullopt);
     machine.say("pids/a/b/pids.max", "max").say("pids/a/pids.max", "512");
     EXPECT_EQ(threads_of_group(machine.files), 512u);
-}
-
-TEST(OwnProcess, KnowsWhatItTakes) {
-    const auto figures = process_figures();
-    EXPECT_GT(figures.resident, 1u << 20);
-    EXPECT_GT(figures.virtually, figures.resident);
-    EXPECT_GE(figures.threads, 1u);
-    EXPECT_GE(figures.descriptors, 3u);
-    EXPECT_GT(figures.started, 1.6e9);
-    EXPECT_GE(peak_memory(), figures.resident / 2);
-}
-
-TEST(OwnProcess, CountsThePeakAnew) {
-    {
-        const std::string much(std::size_t{64} << 20, 'x');
-        EXPECT_GE(peak_memory(), much.size());
-    }
-    const auto before = peak_memory();
-    if (!forget_peak_memory()) GTEST_SKIP() << "the system doesn't do that";
-    EXPECT_LE(peak_memory(), before);
 }
 
 }  // namespace
