@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -81,10 +82,12 @@ void print_names(const SceneData& scene, std::ostream& out) {
 }
 
 void print(const SceneData& scene, const SceneStatistics& found, std::ostream& out) {
-    line(out, "triangles", fmt::format("{}, {} with all instances", found.triangles, found.instanced_triangles));
-    std::string shapes;
-    for (const auto& [names, count] : found.shapes) shapes += fmt::format("{} {}, ", count, names);
-    line(out, "shapes", fmt::format("{}{} objects, {} instances", shapes, found.objects, found.instances));
+    std::string meshes, others;  // the latter beside the triangles, which are all in the former
+    for (const auto& [names, count] : found.shapes)
+        (std::string_view(names) == Mesh::names ? meshes : others) += fmt::format("{} {}, ", count, names);
+    line(out, "triangles",
+         fmt::format("{} in {}{} with all instances", found.triangles, meshes, found.instanced_triangles));
+    line(out, "shapes", fmt::format("{}{} objects, {} instances", others, found.objects, found.instances));
     line(out, "materials", counts_text(found.materials));
     line(out, "lights", counts_text(found.lights));
     print_names(scene, out);
