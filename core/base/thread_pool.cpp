@@ -45,7 +45,7 @@ void ThreadPool::finish() {
     while (do_one(lock)) {
     }
     done_.wait(lock, [this] { return tasks_.empty() && under_way_ == 0; });
-    if (given_up_) throw Cancelled{};
+    if (failure_) std::rethrow_exception(failure_);
 }
 
 void ThreadPool::work(const std::stop_token& stop) {
@@ -59,20 +59,20 @@ bool ThreadPool::do_one(std::unique_lock<std::mutex>& lock) {
     tasks_.pop_front();
     ++under_way_;
     lock.unlock();
-    const bool done = is_done(task);
+    const auto failure = failure_of(task);
     lock.lock();
-    given_up_ |= !done;
+    if (failure && !failure_) failure_ = failure;
     if (--under_way_ == 0 && tasks_.empty()) done_.notify_all();
     return true;
 }
 
-bool ThreadPool::is_done(const Task& task) try {
+std::exception_ptr ThreadPool::failure_of(const Task& task) try {
     const LookingAt looking(task.unwanted);
     end_if_unwanted();
     task.work();
-    return true;
-} catch (const Cancelled&) {
-    return false;
+    return nullptr;
+} catch (...) {
+    return std::current_exception();
 }
 
 }  // namespace lightnet

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -14,9 +15,9 @@
 namespace lightnet {
 
 /// Does tasks in any order, on threads of its own, as far as the system gives them, which end with it. What depends on
-/// the order belongs behind finish(). Called from one thread; tasks share nothing but what never changes, and throw
-/// nothing, but for Cancelled: they are unwanted when their giver's work is (core/base/unwanted.hpp), and what of them
-/// has not begun then is left out.
+/// the order belongs behind finish(). Called from one thread; tasks share nothing but what never changes. They are
+/// unwanted when their giver's work is (core/base/unwanted.hpp), and what of them has not begun then is left out. What
+/// a task throws comes back from finish(), as Cancelled or for want of memory; of several, one.
 class ThreadPool {
 public:
     /// 0 threads: as many as it may use cores, but a few at most. The caller's own counts as one.
@@ -25,10 +26,11 @@ public:
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    /// Takes a task; does it at once when too much is waiting, so that what waits stays small: then it may throw
-    /// Cancelled.
+    /// Takes a task; does it at once when too much is waiting, so that what waits stays small: then what it throws
+    /// comes from here.
     void add(std::function<void()> task);
-    /// Returns when all tasks are done; the caller helps. Throws Cancelled when some were not, as they were unwanted.
+    /// Returns when all tasks are done; the caller helps. Throws Cancelled when some were not, as they were unwanted,
+    /// or what a task has thrown.
     void finish();
 
 private:
@@ -41,20 +43,20 @@ private:
     void work(const std::stop_token& stop);
     void start_thread();
     bool do_one(std::unique_lock<std::mutex>& lock);
-    static bool is_done(const Task& task);
+    static std::exception_ptr failure_of(const Task& task);
 
     std::mutex tasks_mutex_;
     std::condition_variable_any came_;
     std::condition_variable done_;
     std::deque<Task> tasks_;
     std::size_t under_way_ = 0;
-    bool given_up_ = false;  // a task was not done
+    std::exception_ptr failure_;  // of a task
     unsigned most_threads_;
     std::vector<std::jthread> threads_;  // started when there is work; first to go
 };
 
-/// Calls work(first, last) for pieces of 0 … `count`, on all cores if there is more than one. It must not throw,
-/// but for Cancelled, which comes back to the caller.
+/// Calls work(first, last) for pieces of 0 … `count`, on all cores if there is more than one. What it throws comes back
+/// to the caller.
 template <class Work>
 void parallel_for(std::size_t count, const Work& work, std::size_t piece = 1 << 14) {
     if (count <= piece) return work(0, count);

@@ -16,6 +16,7 @@
 #include "core/base/error.hpp"
 #include "core/base/joined.hpp"
 #include "core/base/this_machine.hpp"
+#include "core/base/words_of.hpp"
 #include "core/run/assembly/fingerprint.hpp"
 #include "transport/launcher/probe_hosts.hpp"
 #include "transport/store/cache_folder.hpp"
@@ -65,7 +66,7 @@ Finding look_at_rays() {
     try {
         return {Grade::good, "rays", fmt::format("Embree with {}, fingerprint {:016x}", isa, fingerprint(isa)), ""};
     } catch (const std::exception& error) {
-        return {Grade::bad, "rays", error.what(), "lightnet needs a processor with SSE 4.2"};
+        return {Grade::bad, "rays", words_of(error), "lightnet needs a processor with SSE 4.2"};
     }
 }
 
@@ -92,7 +93,7 @@ Finding look_at_ports() {
         listen(socket, context, "tcp://127.0.0.1:*");
         return {Grade::good, "ports", "a daemon can listen on loopback", ""};
     } catch (const std::exception& error) {
-        return {Grade::bad, "ports", std::string("nothing can listen on loopback: ") + error.what(),
+        return {Grade::bad, "ports", "nothing can listen on loopback: " + words_of(error),
                 "see that 127.0.0.1 is up (ip link set lo up)"};
     }
 }
@@ -110,7 +111,7 @@ Finding look_at_cache(const std::string& named) try {
     return {left < bytes_per_gib ? Grade::doubtful : Grade::good, "cache", what,
             left < bytes_per_gib ? "make room, or take a folder on another disk (--cache FOLDER)" : ""};
 } catch (const std::exception& error) {
-    return {Grade::bad, "cache", error.what(), "choose another folder: --cache FOLDER"};
+    return {Grade::bad, "cache", words_of(error), "choose another folder: --cache FOLDER"};
 }
 
 Finding look_at_pass() try {
@@ -123,7 +124,7 @@ Finding look_at_pass() try {
                 "chmod 600 " + file + ", and make it anew if they may have"};
     return {Grade::good, "pass", file, ""};
 } catch (const std::exception& error) {
-    return {Grade::doubtful, "pass", error.what(), "say where it is: --pass FILE"};
+    return {Grade::doubtful, "pass", words_of(error), "say where it is: --pass FILE"};
 }
 
 // "0.2.0 (GNU 12.2.0, x86-64-v2, …)" in its parts, with what each is.
