@@ -72,6 +72,14 @@ picture vase "A vase of flowers, from glTF" "Scene: Eric Chadwick and Rico Cilli
 picture openness "The same car by ambient occlusion" "Scene: tyrant monkey, CC0." \
     render "$scenes/bmw-m6-pbrt/bmw-m6.pbrt" --lighting ao --size 480x270 --samples 128
 
+# A noisy picture beside the cleaned one, for the README.
+if [ -e "$scenes/living-room-pbrt/living-room.pbrt" ]; then
+    "$lightnet" render "$scenes/living-room-pbrt/living-room.pbrt" --size 480x270 --samples 32 --clean \
+        -o "$work/room.exr" --forget --progress none
+    cp "$work/room.png" "$work/gallery/room_32_samples.png"
+    cp "$work/room.clean.png" "$work/gallery/room_32_samples_clean.png"
+fi
+
 # All of it, or nothing.
 mkdir -p docs/gallery
 cp "$work"/gallery/*.png docs/gallery/
