@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-namespace lightnet::workshop_test {
+namespace lightnet::thread_pool_test {
 namespace {
 
 TEST(ThreadPool, DoesAllPiecesOnce) {
@@ -81,4 +81,4 @@ TEST(ThreadPool, MayBeGivenUp) {
 }
 
 }  // namespace
-}  // namespace lightnet::workshop_test
+}  // namespace lightnet::thread_pool_test

@@ -10,7 +10,7 @@
 #include "core/network/light/mapped.hpp"
 #include "tests/run/places_by_hand.hpp"
 
-namespace lightnet::conductor_test {
+namespace lightnet::coordinator_test {
 namespace {
 
 // What one node computes fills the pauses of another that it can't ask; who asks both waits for them.
@@ -324,4 +324,4 @@ TEST(ConductedRehearsal, AsksNobodyWhenItIsBroken) {
 }
 
 }  // namespace
-}  // namespace lightnet::conductor_test
+}  // namespace lightnet::coordinator_test

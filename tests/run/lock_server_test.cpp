@@ -5,7 +5,7 @@
 #include "core/run/master/lock_client.hpp"
 #include "core/run/place/place_locks.hpp"
 
-namespace lightnet::lock_desk_test {
+namespace lightnet::lock_server_test {
 namespace {
 
 using testing::ElementsAre;
@@ -150,4 +150,4 @@ TEST(PlaceLocks, TellAllAnewWhenTheLauncherHadLostSightOfThem) {
 }
 
 }  // namespace
-}  // namespace lightnet::lock_desk_test
+}  // namespace lightnet::lock_server_test

@@ -12,7 +12,7 @@
 #include "core/run/message/carrier.hpp"
 #include "tests/support/learner.hpp"
 
-namespace lightnet::conductor_test {
+namespace lightnet::coordinator_test {
 
 using Nodes = std::vector<Node>;
 
@@ -117,4 +117,4 @@ inline Graph learning(const Registry& kinds) {
         kinds);
 }
 
-}  // namespace lightnet::conductor_test
+}  // namespace lightnet::coordinator_test

@@ -11,8 +11,8 @@
 namespace lightnet::slow_places_test {
 namespace {
 
-using conductor_test::at;
-using conductor_test::ByHand;
+using coordinator_test::at;
+using coordinator_test::ByHand;
 
 // Two hosts of one place each hold every node.
 class TwoHosts : public ::testing::Test {
@@ -38,13 +38,13 @@ protected:
 // A map, and an image that asks it.
 class SlowPlaces : public TwoHosts {
 protected:
-    SlowPlaces() : TwoHosts(conductor_test::mapping) {}
+    SlowPlaces() : TwoHosts(coordinator_test::mapping) {}
 };
 
 // A node that rehearses.
 class Rehearsals : public TwoHosts {
 protected:
-    Rehearsals() : TwoHosts(conductor_test::learning) {}
+    Rehearsals() : TwoHosts(coordinator_test::learning) {}
 };
 
 TEST_F(SlowPlaces, HoldUpNobody) {
