@@ -20,18 +20,20 @@ inline constexpr std::size_t asked_together = 256;  // questions in a bundle
 inline constexpr std::uint64_t asking_run = 1;
 
 Registry asking_kinds();
-Job asking_job(const Picture& picture);
+/// So many questions in a bundle.
+Job asking_job(const Picture& picture, std::size_t together = asked_together);
 /// The first place asks the second.
 Plan one_asks_the_other(const PlaceAt& first, const PlaceAt& second);
 
 /// A figure, and the plain way that it is measured beside.
 struct Beside {
-    const char* name;
+    std::string name;
     PlainLoad load;
     PlainLine line = PlainLine::open;
+    bool costs = false;  // figures of what a bundle costs, too
 };
 /// The full way and plain ones in turns, whose endpoints are those of `plain_endpoint`.
 void measure_asking(Carrier& carrier, const Plan& plan, const std::function<std::string(std::size_t)>& plain_endpoint,
-                    const std::vector<Beside>& besides);
+                    const std::vector<Beside>& besides, std::size_t together = asked_together);
 
 }  // namespace lightnet::bench

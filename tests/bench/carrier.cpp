@@ -12,6 +12,10 @@
 // again. Within a process ours hands questions and answers over by pointer. It is measured beside a plain loop that
 // does so as well, and beside one that copies 48 bytes per question there and 12 per answer back.
 //
+// What a bundle costs the system stands beside the speeds: calls of the system by who sends, receives and waits,
+// switches of threads and processor time, which depend less on the machine. carrier.tcp_1 to _1024 have so many
+// questions in a bundle.
+//
 // carrier.bytes counts the bytes of our packets per question, its answer included; 60 are what plain copies of both
 // have.
 #include <cstdio>
@@ -40,11 +44,12 @@ void measure_inproc(const Picture& picture) {
     run.stop();
 }
 
-void measure_tcp(const Picture& picture) {
+void measure_tcp(const Picture& picture, const std::string& name, std::size_t together) {
     const Registry kinds = asking_kinds();
-    TwoHosts hosts(kinds, picture, asking_run, asking_job(picture), one_asks_the_other);
-    measure_asking(hosts.cluster(), hosts.cluster().plan(), [](std::size_t) { return "tcp://127.0.0.1:*"; },
-                   {{"carrier.tcp", PlainLoad::packets}});
+    TwoHosts hosts(kinds, picture, asking_run, asking_job(picture, together), one_asks_the_other);
+    measure_asking(
+        hosts.cluster(), hosts.cluster().plan(), [](std::size_t) { return "tcp://127.0.0.1:*"; },
+        {{name, PlainLoad::packets, PlainLine::open, together == asked_together}}, together);
     hosts.cluster().finish();
 }
 
@@ -66,7 +71,10 @@ int main(int argc, char** argv) {
         const lightnet::Registry registry{lightnet::standard_nodes()};
         const bench::Picture picture(registry, 128, 16);
         if (only.empty() || only == "inproc") bench::measure_inproc(picture);
-        if (only.empty() || only == "tcp") bench::measure_tcp(picture);
+        if (only.empty() || only == "tcp") bench::measure_tcp(picture, "carrier.tcp", bench::asked_together);
+        for (const std::size_t together : {1, 16, 1024})
+            if (only.empty() || only == "sizes")
+                bench::measure_tcp(picture, "carrier.tcp_" + std::to_string(together), together);
         if (only.empty() || only == "bytes") bench::measure_bytes();
         if (only.empty() || only == "scalar_inproc") bench::measure_scalar_inproc(picture);
         if (only.empty() || only == "scalar_tcp") bench::measure_scalar_tcp(picture);

@@ -23,7 +23,7 @@ void measure_carrier(const Picture& picture) {
     const Registry kinds = asking_kinds();
     TwoHosts hosts(kinds, picture, asking_run, asking_job(picture), one_asks_the_other, KeyPair::random());
     measure_asking(hosts.cluster(), hosts.cluster().plan(), [](std::size_t) { return "tcp://127.0.0.1:*"; },
-                   {{"keys.carrier", PlainLoad::packets, PlainLine::with_keys}});
+                   {{"keys.carrier", PlainLoad::packets, PlainLine::with_keys, true}});
     hosts.cluster().finish();
 }
 
