@@ -49,7 +49,8 @@ const std::map<std::string, Type> types{{"ask_light", Type::ask_light},
                                         {"members", Type::members},
                                         {"part", Type::part},
                                         {"mark", Type::mark},
-                                        {"marked", Type::marked}};
+                                        {"marked", Type::marked},
+                                        {"unpaced", Type::unpaced}};
 
 constexpr std::array parties{Party::launcher, Party::owner, Party::member, Party::host, Party::user};
 

@@ -111,7 +111,7 @@ void Host::serve(const std::atomic<bool>& stop) {
             s.leaving.reset();
         }
         const auto readable = s.wait();
-        for (const auto line : readable.lines) s.forward_replies(line);
+        if (readable.replies) s.forward_replies();
         if (readable.door) {
             s.door.let_in();
             while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
@@ -230,9 +230,9 @@ void Host::Service::advance() {
     }
 }
 
-void Host::Service::forward_replies(std::size_t line) {
+void Host::Service::forward_replies() {
     if (!run || !run->serving()) return;
-    while (auto frames = run->transport()->receive(line)) {
+    while (auto frames = run->transport()->receive()) {
         if (frames->size() < 3) continue;
         const auto header = packet::peek_header(bytes_of((*frames)[frames->size() - 2]));
         answered += !header || header->width > 0;  // as in work()
@@ -302,7 +302,7 @@ Host::Service::Readable Host::Service::wait() {
     }
     if (places) poll.add(places->news());
     const std::size_t first_place = poll.size();
-    if (places && run->serving()) run->transport()->watch(poll);
+    if (places && run->serving()) poll.add(run->transport()->replies());
     const bool soon = leaving || (peers && peers->waiting());
     poll.wait(std::chrono::milliseconds(soon ? 5 : 100));
     Readable readable;
@@ -313,8 +313,7 @@ Host::Service::Readable Host::Service::wait() {
     readable.gateway = poll.readable(gateway_item);
     readable.news = poll.any_readable(gateway_item + 1, first_place);
     if (readable.news) run->clear_news();
-    for (std::size_t item = first_place; item < poll.size(); ++item)
-        if (poll.readable(item)) readable.lines.push_back(item - first_place);
+    readable.replies = poll.any_readable(first_place, poll.size());
     return readable;
 }
 

@@ -12,14 +12,21 @@
 #include "core/network/graph/plugin_use.hpp"
 #include "core/run/assembly/fingerprint.hpp"
 #include "transport/daemon/host_service.hpp"
+#include "transport/places/descriptors.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr std::uint32_t most_places = 256;  // that a hosts file may ask for, if this host does not offer more itself
+constexpr std::uint32_t most_places = 256;   // that a hosts file may ask for, if this host does not offer more itself
+constexpr std::size_t for_other_work = 128;  // descriptors
 
 using packet::Fields;
 using packet::Type;
+
+// Each takes a descriptor for the socket and one for the connection. Those that there are already count as well.
+bool may_have_own_lines(std::size_t lines, std::size_t most) {
+    return lines <= most && (lines == 0 || descriptors_left() > for_other_work);
+}
 
 }  // namespace
 
@@ -154,12 +161,15 @@ void Host::Service::start(const Arriving& job, Arrival read) {
     if (leaving) return;
     // a hosts file may ask for more places than there are cores
     const auto mine = places_of_host(read.plan, job.you);
-    const auto most = std::max(options.places, most_places);
-    if (mine > most)
+    const auto offered = std::max(options.places, most_places);
+    if (mine > offered)
         throw Error("the plan asks for " + std::to_string(mine) + " places of this host, which gives at most " +
-                    std::to_string(most));
-    HostedRun::Assignment assignment{job.id, job.you, std::max(options.places, mine), read.plan, std::move(read.job)};
-    run = std::make_unique<HostedRun>(context, cache, registry, last_scene, std::move(assignment));
+                    std::to_string(offered));
+    const auto places = std::max(options.places, mine);
+    const auto most = std::size_t{read.job.tuning.own_lines};
+    const auto lines = std::make_shared<LineBook>();
+    HostedRun::Assignment assignment{job.id, job.you, places, read.plan, std::move(read.job)};
+    run = std::make_unique<HostedRun>(context, cache, registry, last_scene, std::move(assignment), lines);
     rights.serve(job.key);
     rights.use_members(job.members);
     gateway.emplace(*context, job.id);
@@ -168,7 +178,12 @@ void Host::Service::start(const Arriving& job, Arrival read) {
         PeerConnections::Handlers{[this](const std::string& place, Frames& frames) { gateway->forward(place, frames); },
                                   [this](const std::string& host) { gateway->request_resend(host); },
                                   [this](Frames& frames) { forward_to_launcher(frames); },
-                                  [this](const std::string& host) { return keys_to(host); }},
+                                  [this](const std::string& host) { return keys_to(host); },
+                                  [=](LineBook::Entries quick, std::size_t hosts) {
+                                      if (!may_have_own_lines(hosts * places, most)) quick.clear();
+                                      for (auto& [host, entry] : quick) entry.room /= places;
+                                      lines->use(std::move(quick));
+                                  }},
         options.line_life);
     peers->hear(job.numbers);
     who = job.who;

@@ -127,11 +127,11 @@ struct Host::Service {
     // Who has something to be read. Looking at an empty socket costs a system call, so only these are looked at.
     struct Readable {
         bool door = false, peers = false, gateway = false;
-        bool news = false;               // of the run
-        std::vector<std::size_t> lines;  // of places and the dispatcher
+        bool news = false;     // of the run
+        bool replies = false;  // of places and the dispatcher
     };
     Readable wait();
-    void forward_replies(std::size_t line);
+    void forward_replies();
     void forward_asks();
     void forward_to_launcher(Frames& frames);
     void show_figures(Time now);

@@ -20,8 +20,9 @@ std::string in_words(std::uint64_t bytes) {
 }  // namespace
 
 HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
-                     LastScene& last_scene, Assignment assignment)
+                     LastScene& last_scene, Assignment assignment, std::shared_ptr<const LineBook> lines)
     : context_(std::move(context)),
+      lines_(std::move(lines)),
       cache_(cache),
       registry_(registry),
       last_scene_(last_scene),
@@ -151,7 +152,7 @@ bool HostedRun::advance() {
         auto network = building_.get();
         last_scene_.hold(scene_source(assignment_.job, registry_), network->scene);
         const auto& [id, me, places, plan, job] = assignment_;
-        transport_ = std::make_unique<ZmqPlaceTransport>(context_, id, me, places);
+        transport_ = std::make_unique<ZmqPlaceTransport>(context_, id, me, places, lines_);
         places_ = std::make_unique<PlaceThreads>(*transport_, std::move(network), id, me, places, plan, job.tuning,
                                                  PlaceThreads::AskedFrom::other_hosts);
         state_ = State::starting;

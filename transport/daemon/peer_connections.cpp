@@ -1,6 +1,7 @@
 #include "transport/daemon/peer_connections.hpp"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -14,6 +15,9 @@ constexpr auto unreachable_after = std::chrono::seconds(1);  // then the launche
 constexpr auto look_interval = std::chrono::milliseconds(200);
 constexpr auto call_interval = std::chrono::milliseconds(500);
 constexpr auto lease = std::chrono::milliseconds(2500);
+// A line is quick that has carried half a MiB/s, and on which little is before a word and its answer.
+constexpr std::size_t quick_window = 256 << 10;
+constexpr auto quick_answer = std::chrono::milliseconds(300);
 
 }  // namespace
 
@@ -40,6 +44,8 @@ void PeerConnections::open(const std::string& host, Peer& to) {
     if (const auto heard = heard_.find(parts ? parts->host : host); heard != heard_.end()) to.line->hear(heard->second);
     to.paced.restart();
     to.opened = to.heard = to.called = std::chrono::steady_clock::now();
+    to.calling = false;
+    to.number = ++opened_;
 }
 
 void PeerConnections::hear(const std::string& lines) {
@@ -75,6 +81,7 @@ void PeerConnections::tick(Time now) {
         to.line->tick(now);
         while (auto frames = to.line->receive()) {
             to.heard = now;
+            if (std::exchange(to.calling, false)) to.slow = now - to.called > quick_answer;
             if (auto message = to.paced.take(std::move(*frames), now, socket_of(to))) take(host, to, *message);
             to.relayed = false;
         }
@@ -83,6 +90,7 @@ void PeerConnections::tick(Time now) {
         if (look && to.line && !to.relayed) look_whether_reachable(host, to, now);
         if (look && to.line && !to.relayed) look_whether_silent(host, to, now);
     }
+    if (look) tell_quick();
 }
 
 // [address][header][body]: a reply. Empty ones: the ask arrived damaged, or this is a new connection.
@@ -120,6 +128,7 @@ void PeerConnections::look_whether_reachable(const std::string& host, Peer& to, 
 
 void PeerConnections::give_up(const std::string& host, Peer& to) {
     to.relayed = true;
+    tell_quick();             // first: what is sent again shall not go the same way
     to.paced.drop_waiting();  // places keep what is not answered
     handlers_.request_resend(host);
 }
@@ -130,12 +139,28 @@ void PeerConnections::look_whether_silent(const std::string& host, Peer& to, Tim
     if (now - std::max(to.heard, to.called) > call_interval) {
         to.called = now;
         auto call = frames_of(packet::pack(packet::Type::mark, std::uint64_t{0}));
-        to.line->send(call);
+        to.calling = to.line->send(call);
     }
+    to.slow |= to.calling && now - to.called > quick_answer;
     if (now - to.heard > lease + to.paced.expected()) give_up(host, to);
 }
 
+bool PeerConnections::is_quick(const Peer& to) const {
+    return to.line && !to.relayed && !to.slow && to.paced.window() >= quick_window && !to.line->answering_at().empty();
+}
+
+void PeerConnections::tell_quick() const {
+    LineBook::Entries quick;
+    for (const auto& [host, to] : peers_)
+        if (is_quick(to)) quick[host] = {to.line->answering_at(), handlers_.keys(host), to.number, to.paced.window()};
+    handlers_.quick(std::move(quick), hosts_);
+}
+
 void PeerConnections::use(const Plan& plan) {
+    std::set<std::string> hosts;
+    for (const auto& place : plan.places)
+        if (place.host != me_) hosts.insert(place.host);
+    hosts_ = hosts.size();
     std::erase_if(peers_, [&](const auto& peer) {
         return std::none_of(plan.places.begin(), plan.places.end(),
                             [&](const PlaceAt& place) { return place.host == peer.first; });

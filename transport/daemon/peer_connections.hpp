@@ -10,6 +10,7 @@
 
 #include "core/network/graph/plan.hpp"
 #include "transport/zmq/caller.hpp"
+#include "transport/zmq/line_book.hpp"
 #include "transport/zmq/paced_line.hpp"
 #include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
@@ -26,6 +27,8 @@ public:
         std::function<void(const std::string& host)> request_resend;           // what was under way to it may be lost
         std::function<void(Frames& frames)> launcher;                          // [place][host][header][body]
         std::function<std::optional<LineKeys>(const std::string& host)> keys;  // by which it is called; none: without
+        // Now and then: of so many hosts those that are near, each with the room of all lines to it together.
+        std::function<void(LineBook::Entries, std::size_t hosts)> quick = [](auto&&, auto) {};
     };
     /// `me`: this host, as in plans.
     PeerConnections(const SocketContext& context, std::string me, Handlers handlers,
@@ -53,10 +56,12 @@ private:
         std::optional<Caller> line{};  // none could be had, or may be
         bool greeted = false;          // doors greet each connection with an empty message: the first is expected
         Time opened{};
-        bool relayed = false;               // its host can't be reached from here
-        std::optional<Time> unreachable{};  // since when
-        PacedLine paced{};                  // [address][header][body]
-        Time heard{}, called{};             // last; asked whether it is there
+        bool relayed = false;                // its host can't be reached from here
+        std::optional<Time> unreachable{};   // since when
+        PacedLine paced{};                   // [address][header][body]
+        Time heard{}, called{};              // last; asked whether it is there
+        bool calling = false, slow = false;  // it has not said so yet; it takes long to
+        std::uint64_t number = 0;            // of this line: each has another
     };
     Peer& peer(const std::string& host);
     void open(const std::string& host, Peer& to);
@@ -64,6 +69,8 @@ private:
     void look_whether_silent(const std::string& host, Peer& to, Time now);
     void give_up(const std::string& host, Peer& to);
     void take(const std::string& host, Peer& to, Frames& frames);
+    bool is_quick(const Peer& to) const;
+    void tell_quick() const;
     void renew_old(const std::string& host, Peer& to, Time now);
     void look_whether_reachable(const std::string& host, Peer& to, Time now);
 
@@ -73,7 +80,9 @@ private:
     std::chrono::milliseconds line_life_;
     std::map<std::string, Peer> peers_;                    // by host
     std::map<std::string, std::vector<IpAddress>> heard_;  // by name
+    std::size_t hosts_ = 0;                                // of the plan, but for this one
     Time looked_{};
+    std::uint64_t opened_ = 0;  // lines so far
 };
 
 }  // namespace lightnet

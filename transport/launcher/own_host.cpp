@@ -18,7 +18,7 @@ OwnHost::OwnHost(const std::shared_ptr<const SocketContext>& context, std::share
 void OwnHost::watch(Poll& poll) {
     poll.add(threads_.news());
     gateway_.watch(poll);
-    if (state_ == State::ready) transport_.watch(poll);
+    if (state_ == State::ready) poll.add(transport_.replies());
 }
 
 bool OwnHost::receive(Time, const Handlers& handlers) {
@@ -31,13 +31,12 @@ bool OwnHost::receive(Time, const Handlers& handlers) {
     if (!threads_.ready()) return false;
     state_ = State::ready;
     while (auto frames = gateway_.receive()) relay_ask(*frames, handlers);
-    for (std::size_t line = 0; line < transport_.lines(); ++line)
-        while (auto frames = transport_.receive(line)) {
-            if (frames->size() == 1)
-                handlers.work(take_message(frames->front()));
-            else if (frames->size() == 3)
-                handlers.relay(*this, *frames);
-        }
+    while (auto frames = transport_.receive()) {
+        if (frames->size() == 1)
+            handlers.work(take_message(frames->front()));
+        else if (frames->size() == 3)
+            handlers.relay(*this, *frames);
+    }
     return false;
 }
 

@@ -75,10 +75,11 @@ enum class Type : std::uint8_t {
     members,  // launcher → host, for this run only: the keys of its hosts, see AllowList; numbers: where those are
               // that have names, a line each, like "onyx1 10.0.0.11"
     // either end of a line, about the line; all in the header
-    part,    // of a message: bundle: where it begins; count: bytes of the whole. The body is nothing but its bytes
-    mark,    // bundle: a number, to be said back by whoever gets so far
-    marked,  // it has come so far
-    last = marked,
+    part,     // of a message: bundle: where it begins; count: bytes of the whole. The body is nothing but its bytes
+    mark,     // bundle: a number, to be said back by whoever gets so far
+    marked,   // it has come so far
+    unpaced,  // marks are not answered in time here: what comes back goes at once
+    last = unpaced,
 };
 
 constexpr bool is_ask(Type type) {

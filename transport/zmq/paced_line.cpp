@@ -68,7 +68,7 @@ std::optional<Frames> frames_in(std::span<const std::byte> bytes) {
 }  // namespace
 
 bool PacedLine::send(Frames& frames, Time now, const Send& socket) {
-    if (!waits_its_turn(frames)) return socket(frames);
+    if (unpaced_ || !waits_its_turn(frames)) return socket(frames);
     const auto size = size_of(frames);
     if (waiting_.empty() && size <= pace_.piece() && pace_.may_send(size)) {
         if (!send_whole(frames, now, socket)) return false;
@@ -148,6 +148,10 @@ std::optional<Frames> PacedLine::take(Frames frames, Time now, const Send& socke
     const auto header = packet::read_header(bytes_of(frames[0]), body);
     if (!header) return frames;  // damaged: whose it is shall see
     if (header->type == Type::part) return add(*header, body);
+    if (header->type == Type::unpaced) {
+        unpaced_ = true;
+        return std::nullopt;
+    }
     if (header->type == Type::mark) {
         auto answer = frames_of(packet::pack(Type::marked, header->bundle));
         socket(answer);

@@ -40,6 +40,8 @@ public:
     /// Bytes of a message that has come in part.
     std::size_t incomplete() const { return arriving_.size(); }
     void forget_incomplete() { arriving_ = {}; }
+    /// How many bytes may be under way: the more, the faster the line was seen to be.
+    std::size_t window() const { return pace_.window(); }
     /// How long what is under way may still take, as far as is known.
     std::chrono::milliseconds expected() const { return pace_.expected(); }
     /// Another connection: what is half sent is sent from its beginning.
@@ -64,6 +66,7 @@ private:
     std::vector<std::byte> arriving_;
     std::uint64_t counted_ = 0;
     bool refused_ = false;
+    bool unpaced_ = false;  // by the other end's wish
 };
 
 }  // namespace lightnet

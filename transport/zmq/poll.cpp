@@ -15,6 +15,11 @@ void Poll::add(const Socket& socket) {
     descriptors_.push_back({socket.descriptor(), POLLIN, 0});
 }
 
+void Poll::add(FrameQueue& queue) {
+    items_.push_back({nullptr, false, &queue});
+    descriptors_.push_back({queue.handle(), POLLIN, 0});
+}
+
 void Poll::add(int descriptor) {
     items_.push_back({nullptr, false});
     descriptors_.push_back({descriptor, POLLIN, 0});
@@ -25,17 +30,28 @@ void Poll::add(int descriptor) {
 // DECISIONS: quiet-sockets
 void Poll::wait(std::chrono::milliseconds most) {
     using Clock = std::chrono::steady_clock;
-    bool found = false;
-    for (auto& [socket, readable] : items_) {
-        readable = socket && !socket->quiet() && socket->readable();
-        found |= readable;
-    }
+    const bool found = look_into_each();
     const auto end = Clock::now() + most;
     auto left = found ? std::chrono::milliseconds(0) : most;
     do {
-        if (look_at_descriptors(left) || found) return;
+        if (look_at_descriptors(left) || found) break;
         left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     } while (left.count() > 0);
+    wake_up();
+}
+
+bool Poll::look_into_each() {
+    bool found = false;
+    for (auto& [socket, readable, queue] : items_) {
+        readable = queue ? !queue->fall_asleep() : socket && !socket->quiet() && socket->readable();
+        found |= readable;
+    }
+    return found;
+}
+
+void Poll::wake_up() {
+    for (const auto& item : items_)
+        if (item.queue) item.queue->wake_up();
 }
 
 // False: nothing is readable, and no signal came: the library had something to do for itself, or time is up.
@@ -45,7 +61,7 @@ bool Poll::look_at_descriptors(std::chrono::milliseconds most) {
     if (told < 0) throw SocketError(errno);
     bool found = false;
     for (std::size_t i = 0; i < items_.size(); ++i) {
-        auto& [socket, readable] = items_[i];
+        auto& [socket, readable, queue] = items_[i];
         if (readable || descriptors_[i].revents == 0) continue;
         readable = !socket || socket->readable();
         found |= readable;

@@ -5,15 +5,16 @@
 #include <cstddef>
 #include <vector>
 
+#include "transport/zmq/frame_queue.hpp"
 #include "transport/zmq/socket.hpp"
 
 struct pollfd;
 
 namespace lightnet {
 
-/// What one thread waits for: sockets and descriptors, numbered in the order in which they were added. Made anew for
-/// each wait; they must live as long. Looking into an empty socket costs a call of the system, so who waits had better
-/// look only where something is readable.
+/// What one thread waits for: sockets, queues and descriptors, numbered in the order in which they were added. Made
+/// anew for each wait; they must live as long. Looking into an empty socket costs a call of the system, so who waits
+/// had better look only where something is readable.
 class Poll {
 public:
     Poll();
@@ -22,6 +23,8 @@ public:
     Poll& operator=(const Poll&) = delete;
 
     void add(const Socket& socket);
+    /// Of which this thread takes.
+    void add(FrameQueue& queue);
     void add(int descriptor);
     std::size_t size() const { return items_.size(); }
     /// Returns when something is readable, or after `most`, or when the process was sent a signal. Throws SocketError
@@ -35,7 +38,10 @@ private:
     struct Item {
         const Socket* socket;  // null: a descriptor
         bool readable;
+        FrameQueue* queue = nullptr;
     };
+    bool look_into_each();
+    void wake_up();
     bool look_at_descriptors(std::chrono::milliseconds most);
 
     std::vector<Item> items_;

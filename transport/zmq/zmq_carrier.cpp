@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "transport/zmq/gateway.hpp"
+#include "transport/zmq/own_lines.hpp"
 #include "transport/zmq/poll.hpp"
 
 namespace lightnet {
@@ -18,6 +19,8 @@ constexpr auto socket_look_interval = std::chrono::milliseconds(200);
 // next time the host is given twice as long (exponential backoff), since it may just be slow.
 // DECISIONS: say-it-again
 constexpr auto shortest_patience = std::chrono::milliseconds(3000);
+// The first hop of what came by the queue; those of ZeroMQ begin with a zero.
+const std::string by_queue = "queue";
 
 }  // namespace
 
@@ -26,12 +29,6 @@ std::string inproc_endpoint(std::uint64_t run, std::uint32_t place) {
 }
 
 struct ZmqCarrier::Sockets {
-    // Looking into an empty socket costs a call of the system, and so does looking at all of them at once. So each is
-    // looked into until it is dry, and at all of them when all are.
-    struct Source {
-        Socket socket;
-        bool dry = false;
-    };
     // Another host.
     struct Peer {
         Clock::time_point asked{}, answered{};  // last
@@ -41,12 +38,17 @@ struct ZmqCarrier::Sockets {
     struct Pending {
         std::string host;
         MessageFrame header, body;
-        bool sent = true;
+        bool sent = true, on_own_line = false;
+        std::size_t size() const { return header.size() + body.size(); }
+        void append_to(Frames& frames) {
+            for (auto* frame : {&header, &body}) frames.push_back(frame->shared());
+        }
     };
 
     const SocketContext& context;
     Address me;
     PlaceTransport::AtFault at_fault;
+    OwnLines own;
     std::optional<Source> answering{};
     std::map<std::string, Source> asking{};  // by endpoint
     Counters counters{};
@@ -57,22 +59,24 @@ struct ZmqCarrier::Sockets {
     bool unsent = false;                                                   // some of them are to be sent again
     Clock::time_point looked{};
 
+    // Looking at all of them at once costs a call of the system, too: that is done when all are dry.
     std::vector<Source*> all() {
-        std::vector<Source*> sources;
+        auto sources = own.sources();
         if (answering) sources.push_back(&*answering);
         for (auto& [endpoint, source] : asking) sources.push_back(&source);
         return sources;
     }
 
-    bool all_dry() const {
-        return (!answering || answering->dry) &&
-               std::ranges::all_of(asking, [](const auto& source) { return source.second.dry; });
+    bool all_dry() {
+        const auto sources = all();
+        return std::ranges::all_of(sources, [](const Source* source) { return source->dry; });
     }
 
     void look(std::chrono::milliseconds most) {
         const auto sources = all();
         Poll poll;
         for (const auto* source : sources) poll.add(source->socket);
+        if (me.queues.asks && most.count() > 0) poll.add(*me.queues.asks);
         poll.wait(most);
         for (std::size_t i = 0; i < sources.size(); ++i) sources[i]->dry = !poll.readable(i);
     }
@@ -83,15 +87,23 @@ struct ZmqCarrier::Sockets {
         return asking.emplace(endpoint, Source{asking_socket(context, endpoint)}).first->second.socket;
     }
 
-    // Hands a packet to the gateway of this process.
+    // Over a line of this place's own, or by way of the gateway of this process.
     bool send(Pending& packet) {
+        leave_own_line(packet);
         Frames frames;
-        frames.emplace_back(packet.host);
-        for (auto* frame : {&packet.header, &packet.body}) frames.push_back(frame->shared());
-        if (!to(gateway_endpoint(me.run)).send(frames)) return false;
+        packet.append_to(frames);
+        packet.on_own_line = own.send(packet.host, frames, packet.size());
+        if (!packet.on_own_line) {
+            frames.emplace(frames.begin(), packet.host);
+            if (!to(gateway_endpoint(me.run)).send(frames)) return false;
+        }
         peers[packet.host].asked = Clock::now();
-        counters.bytes += packet.header.size() + packet.body.size();
+        counters.bytes += packet.size();
         return true;
+    }
+
+    void leave_own_line(Pending& packet) {
+        if (std::exchange(packet.on_own_line, false)) own.settled(packet.host, packet.size());
     }
 
     // What was under way to a host may be lost; "": to any.
@@ -123,6 +135,7 @@ struct ZmqCarrier::Sockets {
     void settle(const std::pair<std::uint32_t, std::uint64_t>& key) {
         const auto found = pending.find(key);
         if (found == pending.end()) return;
+        leave_own_line(found->second);
         auto& peer = peers[found->second.host];
         peer.answered = Clock::now();
         peer.patience = shortest_patience;
@@ -136,22 +149,54 @@ struct ZmqCarrier::Sockets {
         return message;
     }
 
+    // [route][pointer]
     std::optional<Message> from_asker(Frames frames) {
-        if (frames.size() == 2) {  // route, pointer
-            auto message = take_message(frames[1]);
-            message.route.hops = {text_of(frames[0])};
+        if (frames.size() != 2) return std::nullopt;
+        auto message = take_message(frames[1]);
+        message.route.hops = {text_of(frames[0])};
+        return message;
+    }
+
+    // A pointer, or [route][header][body].
+    std::optional<Message> from_queue() {
+        while (auto frames = me.queues.asks ? me.queues.asks->pop() : std::nullopt) {
+            if (frames->size() > 1) {
+                if (auto message = from_other_host(*frames)) return message;
+                continue;
+            }
+            auto message = take_message(frames->front());
+            message.route.hops = {by_queue};
             return message;
         }
-        if (frames.size() < 4) return std::nullopt;
+        return std::nullopt;
+    }
+
+    std::optional<Message> from_other_host(Frames& frames) {
+        if (frames.size() < 3) return std::nullopt;
         const std::size_t hops = frames.size() - 2;
         auto message = from_packet(frames, hops);
         if (message) {
+            message->route.hops = {by_queue};
             for (std::size_t i = 0; i < hops; ++i) message->route.hops.push_back(text_of(frames[i]));
             return message;
         }
         for (std::size_t i = hops; i < frames.size(); ++i) frames[i] = MessageFrame();  // the asker must send it again
-        answering->socket.send(frames);
+        me.queues.replies->push(frames);
         return std::nullopt;
+    }
+
+    void reply_by_queue(Message message) {
+        Frames frames;
+        const auto& hops = message.route.hops;
+        for (auto hop = hops.begin() + 1; hop != hops.end(); ++hop) frames.emplace_back(*hop);
+        if (frames.empty()) {
+            frames.emplace_back(std::move(message));
+        } else {
+            auto packet = packet::pack(message, 0);
+            counters.bytes += packet.header.size() + packet.body.size();
+            append(frames, std::move(packet));
+        }
+        me.queues.replies->push(frames);
     }
 
     std::optional<Message> from_answerer(const std::string& endpoint, Frames frames) {
@@ -163,24 +208,44 @@ struct ZmqCarrier::Sockets {
             resend(text_of(frames[0]));
             return std::nullopt;
         }
+        return from_host("", frames);
+    }
+
+    // `host` "": it is not known which.
+    std::optional<Message> from_host(const std::string& host, const Frames& frames) {
         auto message = frames.size() == 2 ? from_packet(frames, 0) : std::nullopt;  // a flipped bit splits messages
         if (message)
             settle({message->channel, message->bundle});
         else
-            resend("");
+            resend(host);
         return message;
+    }
+
+    std::optional<Message> from_own_lines() {
+        while (auto came = own.receive())
+            if (auto message = from_host(came->first, came->second)) return message;
+        own.look_into_book([&](const std::string& host) { return has_pending(host); });
+        for (const auto& host : own.cut()) {
+            for (auto& [key, packet] : pending)
+                if (packet.host == host) packet.on_own_line = false;
+            resend(host);
+        }
+        return std::nullopt;
     }
 };
 
-ZmqCarrier::ZmqCarrier(const SocketContext& context, Address me, PlaceTransport::AtFault at_fault)
-    : sockets_(new Sockets{context, std::move(me), std::move(at_fault)}) {
+ZmqCarrier::ZmqCarrier(const SocketContext& context, Address me, PlaceTransport::AtFault at_fault,
+                       std::shared_ptr<const LineBook> lines)
+    : sockets_(new Sockets{context, std::move(me), std::move(at_fault), OwnLines(context, std::move(lines))}) {
     const auto& my = sockets_->me;
     if (!my.place) return;
-    sockets_->answering.emplace(Sockets::Source{answering_socket(context)});
+    sockets_->answering.emplace(Source{answering_socket(context)});
     sockets_->answering->socket.bind(inproc_endpoint(my.run, *my.place));
 }
 
-ZmqCarrier::~ZmqCarrier() = default;
+ZmqCarrier::~ZmqCarrier() {
+    if (sockets_->me.queues.asks) sockets_->me.queues.asks->close();
+}
 
 bool ZmqCarrier::ask(const PlaceAt& to, Message& message) {
     auto& s = *sockets_;
@@ -207,30 +272,22 @@ bool ZmqCarrier::ask(const PlaceAt& to, Message& message) {
 }
 
 void ZmqCarrier::reply(Message message) {
+    if (!message.route.hops.empty() && message.route.hops.front() == by_queue)
+        return sockets_->reply_by_queue(std::move(message));
     Frames frames;
     for (const auto& hop : message.route.hops) frames.emplace_back(hop);
-    if (frames.size() > 1) {
-        append(frames, packet::pack(message, 0));
-        for (std::size_t i = message.route.hops.size(); i < frames.size(); ++i)
-            sockets_->counters.bytes += frames[i].size();
-    } else {
-        frames.emplace_back(std::move(message));
-    }
+    frames.emplace_back(std::move(message));
     // Who has gone meanwhile wants no answer: it was asked of several, or the run is over.
     if (sockets_->answering->socket.try_send(frames) == SendResult::line_is_full) ++sockets_->counters.refused_sends;
 }
 
 std::optional<Message> ZmqCarrier::receive() {
     auto& s = *sockets_;
+    if (auto message = s.from_queue()) return message;
     if (s.all_dry()) s.look(std::chrono::milliseconds(0));
-    const auto take = [](Sockets::Source& source, const auto& read) -> std::optional<Message> {
-        while (!source.dry) {
-            auto frames = source.socket.receive();
-            if (!frames)
-                source.dry = true;
-            else if (auto message = read(std::move(*frames)))
-                return message;
-        }
+    const auto take = [](Source& source, const auto& read) -> std::optional<Message> {
+        while (auto frames = source.receive())
+            if (auto message = read(std::move(*frames))) return message;
         return std::nullopt;
     };
     if (s.answering)
@@ -242,6 +299,7 @@ std::optional<Message> ZmqCarrier::receive() {
         const auto read = [&](Frames frames) { return s.from_answerer(source->first, std::move(frames)); };
         if (auto message = take(source->second, read)) return message;
     }
+    if (auto message = s.from_own_lines()) return message;
     if (!s.pending.empty()) s.look_after_pending();
     return std::nullopt;
 }
@@ -253,7 +311,10 @@ void ZmqCarrier::wait(std::chrono::nanoseconds most) {
 }
 
 void ZmqCarrier::give_up(std::uint32_t channel) {
-    std::erase_if(sockets_->pending, [&](const auto& one) { return one.first.first == channel; });
+    auto& pending = sockets_->pending;
+    for (auto& [key, packet] : pending)
+        if (key.first == channel) sockets_->leave_own_line(packet);
+    std::erase_if(pending, [&](const auto& one) { return one.first.first == channel; });
 }
 
 bool ZmqCarrier::take_out(const std::string& host, const std::string& why) {

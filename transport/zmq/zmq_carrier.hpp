@@ -8,6 +8,8 @@
 
 #include "core/run/message/carrier.hpp"
 #include "transport/places/place_transport.hpp"
+#include "transport/zmq/frame_queue.hpp"
+#include "transport/zmq/line_book.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
@@ -15,19 +17,25 @@ namespace lightnet {
 /// How the sockets of one run inside one process are called. `run` keeps runs apart.
 std::string inproc_endpoint(std::uint64_t run, std::uint32_t place);
 
-/// Within the process a message is handed over by pointer. To another host it goes as a packet, through the gateway
-/// that all places of the process share. A packet is kept until its reply is there, and sent again whenever a
-/// connection was cut. Belongs to one thread.
+/// Within the process a message is handed over by pointer. To another host it goes as a packet: over a line of the
+/// place's own, where the host is in the LineBook, else through the gateway that all places of the process share. A
+/// packet is kept until its reply is there, and sent again whenever a connection was cut. Belongs to one thread.
 class ZmqCarrier final : public Carrier {
 public:
+    /// Between this place and the thread that owns the sockets to other hosts.
+    struct Queues {
+        std::shared_ptr<FrameQueue> asks, replies;
+    };
     struct Address {
         std::uint64_t run = 0;
         std::string host;                      // of this process, as in PlaceAt
         std::optional<std::uint32_t> place{};  // whose messages arrive here; none: it only asks, as the master does
+        Queues queues{};                       // null: nobody asks but places of this process
     };
-    /// `at_fault` is told of hosts that failed.
+    /// `at_fault` is told of hosts that failed. `lines`: hosts that may be called from here; null: none.
     ZmqCarrier(
-        const SocketContext& context, Address me, PlaceTransport::AtFault at_fault = [](const Failure&) {});
+        const SocketContext& context, Address me, PlaceTransport::AtFault at_fault = [](const Failure&) {},
+        std::shared_ptr<const LineBook> lines = nullptr);
     ~ZmqCarrier() override;
 
     bool ask(const PlaceAt& to, Message& message) override;

@@ -9,18 +9,20 @@
 #include <vector>
 
 #include "transport/places/place_transport.hpp"
-#include "transport/zmq/poll.hpp"
+#include "transport/zmq/frame_queue.hpp"
+#include "transport/zmq/line_book.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
-/// Between places messages go by pointer, over inproc://. To places go also packets of other hosts, untouched: for the
-/// thread that owns the sockets to those.
+/// Between places messages go by pointer, over inproc://. Between places and the thread that owns the sockets to other
+/// hosts, packets go untouched through queues.
 class ZmqPlaceTransport final : public PlaceTransport {
 public:
-    /// For `places` places of `host`. Throws Error when there are too few descriptors for so many.
+    /// For `places` places of `host`. `lines`: hosts that they may call by themselves; null: none. Throws Error when
+    /// there are too few descriptors for so many.
     ZmqPlaceTransport(std::shared_ptr<const SocketContext> context, std::uint64_t run, std::string host,
-                      std::uint32_t places);
+                      std::uint32_t places, std::shared_ptr<const LineBook> lines = nullptr);
 
     std::unique_ptr<Carrier> carrier_of(std::uint32_t place, AtFault at_fault) override;
     std::unique_ptr<Carrier> asking_carrier() override;
@@ -29,20 +31,20 @@ public:
     /// Frames for a place that serves, or for the dispatcher (any_place); replies to it come back by receive().
     /// False: there is no such place, or it has ended.
     bool forward(std::uint32_t place, Frames& frames);
-    /// What came from one line, of so many: one per place, in their order, and the dispatcher's.
-    std::optional<Frames> receive(std::size_t line);
-    std::size_t lines() const { return to_.size(); }
-    /// All lines, in their order.
-    void watch(Poll& poll);
+    /// What came from any of them.
+    std::optional<Frames> receive() { return replies_->pop(); }
+    /// Where replies come from; see FrameQueue for how to wait for them.
+    FrameQueue& replies() { return *replies_; }
 
 private:
-    std::size_t line_to(std::uint32_t place) const;
-    Socket& socket_of(std::size_t line);
+    FrameQueue* queue_to(std::uint32_t place);
 
     std::shared_ptr<const SocketContext> context_;
     std::uint64_t run_;
     std::string host_;
-    std::vector<std::optional<Socket>> to_;  // by line
+    std::shared_ptr<const LineBook> lines_;
+    std::vector<std::shared_ptr<FrameQueue>> to_;  // by place, and to the dispatcher
+    std::shared_ptr<FrameQueue> replies_ = std::make_shared<FrameQueue>();
 };
 
 /// For a run that stays within this process: see MakePlaceTransport.

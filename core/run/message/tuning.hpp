@@ -28,6 +28,7 @@ struct Tuning {
     std::uint32_t eager = 2;
     std::uint32_t credit_questions = 8192;
     std::uint64_t credit_bytes = std::uint64_t{8} << 20;
+    std::uint32_t own_lines = 64;
     bool call_own_nodes = true;
     bool trace = false;
     friend bool operator==(const Tuning&, const Tuning&) = default;
@@ -51,7 +52,7 @@ struct Knob {
     const char* help;
 };
 
-inline constexpr std::array<Knob, 16> knobs{{
+inline constexpr std::array<Knob, 17> knobs{{
     {"tile", &Tuning::tile, Knob::By::users, Knob::Where::launcher, 1, 256, "N", "pixels along a side of a tile"},
     {"bundle", &Tuning::bundle, Knob::By::users, Knob::Where::places, 1, 65536, "N", "questions in a full bundle"},
     {"credit", &Tuning::credit, Knob::By::users, Knob::Where::places, 1, 1024, "N",
@@ -78,6 +79,8 @@ inline constexpr std::array<Knob, 16> knobs{{
      "questions under way to one place, per node asked"},
     {"credit_bytes", &Tuning::credit_bytes, Knob::By::tests, Knob::Where::places, 1, std::uint64_t{1} << 40, "SIZE",
      "bytes under way to one place, per node asked, with the room for answers"},
+    {"own_lines", &Tuning::own_lines, Knob::By::tests, Knob::Where::places, 0, 1 << 20, "N",
+     "lines that the places of a host may have to others by themselves, all together"},
     {"call_own_nodes", &Tuning::call_own_nodes, Knob::By::tests, Knob::Where::places, 0, 0, "",
      "call a node of the same place, rather than send it bundles"},
     {"trace", &Tuning::trace, Knob::By::tests, Knob::Where::places, 0, 0, "",

@@ -1,0 +1,49 @@
+// The number of this process, kept.
+#include "transport/zmq/process_number.hpp"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+
+namespace lightnet {
+namespace {
+
+pid_t number_by_the_system() { return static_cast<pid_t>(syscall(SYS_getpid)); }
+
+// What a child finds, told by the code that it ends with.
+template <class Work>
+int code_of_child(const Work& work) {
+    const pid_t child = fork();
+    if (child == 0) _exit(work());
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(ProcessNumber, IsThatOfTheSystem) {
+    keep_process_number();
+    keep_process_number();
+    EXPECT_EQ(getpid(), number_by_the_system());
+}
+
+TEST(ProcessNumber, IsAnotherInAForkedProcess) {
+    keep_process_number();
+    const pid_t parent = getpid();
+    const auto right = [&] { return getpid() != parent && getpid() == number_by_the_system(); };
+    EXPECT_EQ(code_of_child([&] { return right() ? code_of_child([&] { return right() ? 7 : 1; }) : 2; }), 7);
+}
+
+// A library finds what the whole program has.
+TEST(ProcessNumber, IsAskedOfUsByLibraries) {
+    Dl_info ours{}, theirs{};
+    ASSERT_NE(dladdr(reinterpret_cast<const void*>(&keep_process_number), &ours), 0);
+    ASSERT_NE(dladdr(dlsym(RTLD_DEFAULT, "getpid"), &theirs), 0);
+    EXPECT_EQ(std::string(theirs.dli_fname), ours.dli_fname);
+}
+
+}  // namespace
+}  // namespace lightnet

@@ -1,0 +1,37 @@
+// Messages on their way from one thread of this process to another.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "transport/places/wakeup.hpp"
+#include "transport/zmq/message_frame.hpp"
+
+namespace lightnet {
+
+/// Any thread pushes, one takes. A push costs a call of the system only where the one who takes is asleep: handing over
+/// by a socket within the process costs five at the least.
+/// DECISIONS: queues-in-memory
+class FrameQueue {
+public:
+    /// False, and the frames are as they were: nobody takes any more.
+    bool push(Frames& frames);
+    /// The oldest; none: there is nothing.
+    std::optional<Frames> pop();
+    /// From now on a push makes handle() readable. False: there is something already, and nothing to wait for. For the
+    /// thread that takes, as all that follows.
+    bool fall_asleep();
+    void wake_up();
+    int handle() const { return wakeup_.handle(); }
+    /// Nobody takes any more: what is there is dropped.
+    void close();
+
+private:
+    std::mutex mutex_;
+    std::deque<Frames> frames_;
+    bool asleep_ = false, woken_ = false, closed_ = false;
+    Wakeup wakeup_;
+};
+
+}  // namespace lightnet
