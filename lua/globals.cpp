@@ -110,6 +110,25 @@ void Globals::offer(const char* name, int (*function)(lua_State*)) {
     lua_pop(L_, 1);
 }
 
+double Globals::give(const std::string& name, double value) {
+    lua_getfield(L_, LUA_REGISTRYINDEX, store);
+    const auto given = overrides_.find(name);
+    if (given != overrides_.end()) met_[name] = true;
+    if (given == overrides_.end() || !push_number(L_, given->second)) {
+        if (given != overrides_.end())
+            complain({sandbox_.file(), 0}, "-D " + name + "=" + given->second + ": it is a number");
+        lua_Integer whole = 0;
+        if (lua_numbertointeger(value, &whole) && static_cast<double>(whole) == value)
+            lua_pushinteger(L_, whole);  // as one writes it
+        else
+            lua_pushnumber(L_, value);
+    }
+    const double is = lua_tonumber(L_, -1);
+    lua_setfield(L_, -2, name.c_str());
+    lua_pop(L_, 1);
+    return is;
+}
+
 Globals& Globals::self(lua_State* L) {
     lua_getfield(L, LUA_REGISTRYINDEX, owner);
     auto* const globals = static_cast<Globals*>(lua_touserdata(L, -1));

@@ -41,6 +41,8 @@ protected:
     virtual void assigned(lua_State* L, const std::string& name) = 0;
     /// Makes a function of `self` a global that files may call.
     void offer(const char* name, int (*function)(lua_State*));
+    /// Makes a number a global, or what -D says of that name. Returns which it is.
+    double give(const std::string& name, double value);
     /// Complains of all that was read in vain, and of overrides that met nothing. `named`: other names one may have
     /// meant.
     void finish(const std::vector<std::string>& named);

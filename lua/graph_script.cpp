@@ -5,10 +5,12 @@
 #include <cctype>
 #include <utility>
 
+#include "core/base/frame_name.hpp"
 #include "core/base/in_quotes.hpp"
 #include "core/base/printable.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/json.hpp"
+#include "lua/keys.hpp"
 
 namespace lightnet::lua {
 namespace {
@@ -21,16 +23,52 @@ constexpr int most_depth = 12;                                 // of tables in t
 // Until all nodes have their names, a reference goes by the node's number; no name of a file's can begin like this.
 constexpr char by_number = '\x01';
 
+// What --frames says stands before what the file says.
+std::map<std::string, std::string> with_frame_number(const LuaOptions& options) {
+    auto constants = options.constants;
+    if (options.frame.asked) constants["frame"] = std::to_string(options.frame.number);
+    return constants;
+}
+
 }  // namespace
 
-GraphScript::GraphScript(Sandbox& sandbox, std::map<std::string, std::string> constants)
-    : Globals(sandbox, std::move(constants)) {
+GraphScript::GraphScript(Sandbox& sandbox, const LuaOptions& options)
+    : Globals(sandbox, with_frame_number(options)), of_(options.frame) {
+    frame_ = give("frame", of_.number);
+    give("frames", of_.count);
+    fps_ = give("fps", fps_);
+    give_time();
+    offer("keys", &keys);
     luaL_newmetatable(L_, node_type);
     lua_pushliteral(L_, "node");
     lua_setfield(L_, -2, "__name");
     lua_pushboolean(L_, 0);
     lua_setfield(L_, -2, "__metatable");
     lua_pop(L_, 1);
+}
+
+// The first frame begins at 0.
+// DECISIONS: frames-alone-are-frames
+void GraphScript::give_time() {
+    if (!own_time_) time_ = give("time", (frame_ - 1) / fps_);
+}
+
+// The value on top of the stack is what the file says of frames.
+void GraphScript::take_rate(lua_State* L, const std::string& name) {
+    if (lua_type(L, -1) != LUA_TNUMBER) return;
+    const double value = lua_tonumber(L, -1);
+    if (name == "time") own_time_ = true, time_ = value;
+    if (name == "frame") frame_ = value;
+    if (name == "fps" && !(value > 0)) return complain(sandbox_.caller(), "'fps', frames per second, must be above 0");
+    if (name == "fps") fps_ = value;
+    give_time();
+}
+
+// Where a file moves and the graph does not say when, it is the time of the frame.
+void GraphScript::place_in_time(Node& scene) const {
+    for (auto& entry : scene.entries)
+        if (auto* file = std::get_if<std::string>(&entry.data)) *file = with_frame(*file, static_cast<int>(frame_));
+    if (of_.asked) scene.params.try_emplace("time", Value{time_});
 }
 
 const std::size_t* GraphScript::node_at(lua_State* L, int index) const {
@@ -173,6 +211,7 @@ void GraphScript::note(Made& made, const std::string& complaint) {
 }
 
 void GraphScript::assigned(lua_State* L, const std::string& name) {
+    if (name == "frame" || name == "fps" || name == "time") take_rate(L, name);
     const auto* number = node_at(L, 3);
     if (!number) return;
     Node& node = made_[*number].node;
@@ -202,6 +241,7 @@ Graph GraphScript::finish() {
         Node node = made_[number].node;
         for (auto& entry : node.entries) resolve(entry);
         for (auto& [key, value] : node.params) resolve(value);
+        if (node.kind == "Scene") place_in_time(node);
         names.push_back(node.name);
         graph.nodes.push_back(std::move(node));
     }

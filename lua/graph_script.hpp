@@ -8,13 +8,14 @@
 
 #include "core/network/graph/graph.hpp"
 #include "lua/globals.hpp"
+#include "lua/load_graph.hpp"
 
 namespace lightnet::lua {
 
 /// Makes a node of every `Kind { … }`, and gives it the name of the first global that it is assigned to.
 class GraphScript final : public Globals {
 public:
-    GraphScript(Sandbox& sandbox, std::map<std::string, std::string> constants);
+    GraphScript(Sandbox& sandbox, const LuaOptions& options);
 
     /// The nodes, in the order in which they were named. Problems are complete after this.
     Graph finish();
@@ -25,6 +26,9 @@ private:
         std::vector<std::string> complaints;  // told when the name is known
     };
 
+    void give_time();
+    void take_rate(lua_State* L, const std::string& name);
+    void place_in_time(Node& scene) const;
     int call(lua_State* L, Unknown& callee) override;
     void assigned(lua_State* L, const std::string& name) override;
 
@@ -41,6 +45,9 @@ private:
     const std::size_t* node_at(lua_State* L, int index) const;
     void resolve(Value& value) const;
 
+    GraphFrame of_;
+    double frame_ = 1, fps_ = 24, time_ = 0;
+    bool own_time_ = false;  // the file says itself what time it is
     std::vector<Made> made_;
     std::vector<std::size_t> order_;            // indices into made_, as they were named
     std::map<std::string, std::size_t> named_;  // all names of nodes, second ones too

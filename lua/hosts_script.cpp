@@ -16,8 +16,8 @@ constexpr std::size_t most_hosts = 10000;
 
 }  // namespace
 
-HostsScript::HostsScript(Sandbox& sandbox, std::map<std::string, std::string> constants)
-    : Globals(sandbox, std::move(constants)), hosts_{sandbox.file(), {}} {
+HostsScript::HostsScript(Sandbox& sandbox, const LuaOptions& options)
+    : Globals(sandbox, options.constants), hosts_{sandbox.file(), {}} {
     offer("place", &HostsScript::place);
     offer("strategy", &HostsScript::strategy);
     offer("layout", &HostsScript::layout);

@@ -15,7 +15,7 @@ namespace lightnet::lua {
 /// `strategy { node = "name" }`, and likewise of `layout`.
 class HostsScript final : public Globals {
 public:
-    HostsScript(Sandbox& sandbox, std::map<std::string, std::string> constants);
+    HostsScript(Sandbox& sandbox, const LuaOptions& options);
 
     /// The entries, in the order of the file. Problems are complete after this.
     Hosts finish();

@@ -39,7 +39,7 @@ Answer run_script(const std::string& file, const Text& text, const LuaOptions& o
     Answer answer;
     try {
         lua::Sandbox sandbox(file, options.memory);
-        Script script(sandbox, options.constants);
+        Script script(sandbox, options);
         sandbox.run(text());
         answer.value = to_json(script.finish());
         answer.problems = script.take_problems();

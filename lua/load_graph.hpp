@@ -7,7 +7,8 @@
 // graph in the order in which they are named; an input may be named further down. A node without a name of its own
 // (local, or written inside another node) is an error, because layers, hosts and random numbers go by names; a second
 // global for the same node is only another way to write it. Other globals are constants, which `-D name=value`
-// overrides. A name that the file uses but nobody gives is a problem, never silently nil.
+// overrides; `frame`, `frames`, `fps` and `time` are there from the beginning. A name that the file uses but nobody
+// gives is a problem, never silently nil.
 //
 // A hosts file: `place "tcp://host:7777" { node = replicas… }`; without a table, or with an empty one, each place of
 // the host holds the whole network; `places = N` in it says how many places the host has, and `key = "…"` what its
@@ -25,12 +26,21 @@
 
 namespace lightnet {
 
+/// Which frame of a sequence a graph is evaluated for: its `frame`, `frames`, `fps` and `time`. A still is the first of
+/// one.
+struct GraphFrame {
+    int number = 1;
+    int count = 1;       // the last one's number
+    bool asked = false;  // somebody has asked for it: what moves in files of scenes stands as it then does
+};
+
 /// What a file may cost, and which of its constants are overridden.
 struct LuaOptions {
     std::map<std::string, std::string> constants = {};  // -D name=value; the type is that of the file's own value
     double cpu_seconds = 2;                             // processor time
     double wall_seconds = 10;
     std::size_t memory = std::size_t{256} << 20;  // bytes of Lua values
+    GraphFrame frame = {};
 };
 
 /// A graph as its file gives it, and what is wrong with the file besides. For those who tell all problems at once.

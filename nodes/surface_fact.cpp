@@ -30,7 +30,7 @@ class SurfaceFact final : public LightOp {
 public:
     explicit SurfaceFact(const NodeContext& here)
         : scene_(here.scene()),
-          eye_(here.scene().data().camera),
+          eye_(here.scene().seen_from()),
           key_(here.key()),
           fact_(fact_called(here.text("of"))) {}
 

@@ -17,7 +17,7 @@ class SurfaceFeature final : public LightOp {
 public:
     explicit SurfaceFeature(const NodeContext& here)
         : scene_(here.scene()),
-          eye_(transform_point(here.scene().data().camera.to_world, {0, 0, 0})),
+          eye_(transform_point(here.scene().seen_from().to_world, {0, 0, 0})),
           key_(here.key()),
           of_(here.text("of")) {}
 

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lua/custom.hpp"
@@ -10,6 +11,7 @@
 #include "nodes/standard_nodes.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/session/run.hpp"
+#include "tools/session/sequence.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/plugins.hpp"
 #include "tools/support/signals.hpp"
@@ -26,6 +28,9 @@ int perform(const std::vector<std::string>& words) try {
     lightnet::load_installed_plugins(registry, std::cerr);
     const auto run = [&](const lightnet::RunRequest& request) { return lightnet::run(request, registry); };
     lightnet::Launcher launcher{registry, run, std::cout, std::cerr};
+    launcher.run_sequence = [&](lightnet::Sequence sequence) {
+        return lightnet::run_sequence(std::move(sequence), registry);
+    };
     launcher.plug = [&](const std::vector<std::string>& files) {
         lightnet::load_plugins(files, registry);
         lightnet::pass_on_plugins(files);

@@ -82,6 +82,11 @@ void choose_camera(SceneData& scene, const std::string& wanted, const SourceLine
     scene.camera_given = true;
 }
 
+void look_as_wanted(const SceneOverrides& overrides, SceneData& scene, const SourceLine& where) {
+    if (!overrides.seen_by.empty()) choose_camera(scene, overrides.seen_by, where);
+    if (overrides.camera) change_camera(scene, *overrides.camera, where);
+}
+
 /// The axis of the world that is up for the camera: scenes stand on z or on y.
 Vec3 upwards(const SceneData& scene) {
     const Vec3 up = scene.camera_given ? column(scene.camera.to_world, 1) : Vec3{0, 1, 0};
@@ -158,9 +163,22 @@ void make_clay(SceneData& scene) {
 
 }  // namespace
 
+std::optional<Onlooker> look_again(const SceneOverrides& overrides, const SceneData& changed, const SourceLine& where) {
+    SceneData scene;  // nothing but those who look
+    scene.camera = changed.as_read.camera;
+    scene.camera_given = changed.as_read.given;
+    scene.film = changed.as_read.film;
+    scene.cameras = changed.cameras;
+    look_as_wanted(overrides, scene, where);
+    const bool stands_by_camera = overrides.sky || std::holds_alternative<std::string>(overrides.environment);
+    if (!scene.camera_given || (stands_by_camera && !(upwards(scene) == upwards(changed)))) return std::nullopt;
+    scene.film.scale *= std::exp2(overrides.exposure);
+    return Onlooker{scene.camera, true, scene.film};
+}
+
 void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, const SourceLine& where) {
-    if (!overrides.seen_by.empty()) choose_camera(scene, overrides.seen_by, where);
-    if (overrides.camera) change_camera(scene, *overrides.camera, where);
+    scene.as_read = {scene.camera, scene.camera_given, scene.film};
+    look_as_wanted(overrides, scene, where);
     if (const auto* colour = std::get_if<Rgb>(&overrides.environment)) {
         scene.environments.clear();
         if (!is_black(*colour)) scene.environments.emplace_back().radiance = *colour;

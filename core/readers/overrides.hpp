@@ -42,6 +42,10 @@ struct SceneOverrides {
     std::vector<LampGroup> groups{};  // of lamps
 };
 
+/// Who would look at a scene, which was changed by other overrides, by these: they differ in the camera alone. None: it
+/// is not known, or more hangs on it. Throws UserError, which names `where`.
+std::optional<Onlooker> look_again(const SceneOverrides& overrides, const SceneData& changed, const SourceLine& where);
+
 /// Changes the scene, the same on every host. Opens files only through `files`. Throws UserError, which names `where`.
 void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, const SourceLine& where);
 

@@ -91,6 +91,14 @@ std::string with_variables(std::span<const SceneFormat> formats) {
 SceneData read(Files& files, const std::string& path, const SceneConstants& constants,
                std::span<const SceneFormat> formats) {
     const SceneFormat* format = format_of(path, formats);
+    if (format && !format->moves &&
+        (constants.contains(std::string(time_constant)) || constants.contains(std::string(animation_constant)))) {
+        if (constants.contains(std::string(animation_constant)))
+            throw UserError({path, 0}, "nothing in such a file is animated, so no 'animation' can be chosen");
+        SceneConstants others = constants;
+        others.erase(std::string(time_constant));
+        return read(files, path, others, formats);
+    }
     if (!constants.empty() && !(format && format->has_variables))
         throw UserError({path, 0}, "only " + with_variables(formats) + " have variables: there is no '" +
                                        constants.begin()->first + "' to define");

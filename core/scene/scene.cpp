@@ -65,15 +65,11 @@ struct Scene::Built {
         : data(checked(std::move(given))),
           shading(data),
           geometry(data, shading, {options.isa, options.build_threads}),
-          box(finite_box(geometry.bounds())),
-          film(sized(data.film, options)),
-          camera(looked_at(film), film.width, film.height) {}
-
-    // Those who ask the data find the camera that is used.
-    const CameraData& looked_at(const FilmData& picture) {
-        data.camera = camera_in(data, picture.width, picture.height);
+          box(finite_box(geometry.bounds())) {
+        // Those who ask the data find the camera that is used.
+        data.film = sized(data.film, options);
+        data.camera = camera_in(data, data.film.width, data.film.height);
         data.camera_given = true;
-        return data.camera;
     }
 
     std::unique_ptr<const Lights> lights(const Lights::Wanted& wanted) const {
@@ -85,15 +81,28 @@ struct Scene::Built {
     Shading shading;
     Geometry geometry;
     Box box;
-    FilmData film;
-    Camera camera;
 };
 
 Scene::Scene(SceneData data, const SceneOptions& options)
-    : built_(std::make_shared<const Built>(std::move(data), options)), lights_(built_->lights({})) {}
+    : built_(std::make_shared<const Built>(std::move(data), options)),
+      lights_(built_->lights({})),
+      seen_from_(built_->data.camera),
+      film_(built_->data.film),
+      camera_(seen_from_, film_.width, film_.height) {}
 
 Scene::Scene(const Scene& whole, const LampView& lamps)
-    : built_(whole.built_), lights_(built_->lights({lamps.groups, lamps.apart})) {}
+    : built_(whole.built_),
+      lights_(built_->lights({lamps.groups, lamps.apart})),
+      seen_from_(whole.seen_from_),
+      film_(whole.film_),
+      camera_(whole.camera_) {}
+
+Scene::Scene(const Scene& whole, const Onlooker& by, const SceneOptions& options)
+    : built_(whole.built_),
+      lights_(whole.lights_),
+      seen_from_(by.camera),
+      film_(sized(by.film, options)),
+      camera_(seen_from_, film_.width, film_.height) {}
 
 Scene::~Scene() = default;
 
@@ -211,8 +220,6 @@ std::size_t Scene::groups() const { return lights_->groups(); }
 std::uint32_t Scene::group_of(const SurfacePoint& lamp) const { return lights_->group_of(lamp); }
 std::uint32_t Scene::environment_group() const { return lights_->environment_group(); }
 
-const Camera& Scene::camera() const { return built_->camera; }
-const FilmData& Scene::film() const { return built_->film; }
 Box Scene::bounds() const { return built_->box; }
 float Scene::radius() const { return length(built_->box.size()) / 2; }
 

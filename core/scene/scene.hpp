@@ -61,6 +61,8 @@ public:
     /// A scene as if there were no other lamps than these. It shares all but what finds them, and what was a lamp is in
     /// the way of light as before.
     Scene(const Scene& whole, const LampView& lamps);
+    /// The same scene, looked at otherwise. It shares all but the camera.
+    Scene(const Scene& whole, const Onlooker& by, const SceneOptions& options);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -87,7 +89,8 @@ public:
     SurfacePoint surface(const Query& query) const { return surface(hit(query)); }
     /// What a question names, as if a ray had met it. Throws Error if it isn't there: it may come from another host.
     Hit hit(const Query& query) const;
-    /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone.
+    /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone, and who looks is
+    /// who looked then.
     const SceneData& data() const;
     /// By shape: how its points are shaded many at once. What is hit in an instance is not.
     std::span<const ColumnShape> column_shapes() const;
@@ -152,8 +155,10 @@ public:
     /// The group of all that comes from infinity without a direction of its own.
     std::uint32_t environment_group() const;
 
-    const Camera& camera() const;
-    const FilmData& film() const;
+    const Camera& camera() const { return camera_; }
+    /// What it was made of.
+    const CameraData& seen_from() const { return seen_from_; }
+    const FilmData& film() const { return film_; }
     /// The box around everything that rays can meet.
     Box bounds() const;
     /// Radius of the sphere around everything, metres.
@@ -166,7 +171,10 @@ public:
 private:
     struct Built;
     std::shared_ptr<const Built> built_;
-    std::unique_ptr<const Lights> lights_;
+    std::shared_ptr<const Lights> lights_;
+    CameraData seen_from_;
+    FilmData film_;
+    Camera camera_;
 };
 
 }  // namespace lightnet

@@ -55,6 +55,29 @@ TEST(SceneOverrides, MoveTheCamera) {
     expect_near(transform_direction(m, {1, 0, 0}), {0, 0, -1});  // still no mirror
 }
 
+TEST(SceneOverrides, LetAnotherLookAtAChangedSceneAsIfItHadBeenReadForThat) {
+    CameraOverride first, second;
+    first.from = Vec3{5, 0, 0}, first.to = Vec3{}, first.fov = 20;
+    second.from = Vec3{0, 7, 1};
+    const auto scene = changed(with_camera(), camera(first));
+    auto wanted = camera(second);
+    wanted.exposure = 1;
+    const auto onlooker = look_again(wanted, scene, {"g.lua", 3});
+    const auto anew = changed(with_camera(), wanted);
+    ASSERT_TRUE(onlooker);
+    EXPECT_EQ(onlooker->camera.to_world, anew.camera.to_world) << "from the file's camera, not from the first one's";
+    EXPECT_EQ(onlooker->camera.fov, anew.camera.fov);
+    EXPECT_EQ(onlooker->film.scale, anew.film.scale);
+}
+
+TEST(SceneOverrides, ReadASceneAnewWhereMoreHangsOnTheCamera) {
+    const auto scene = changed(SceneData{}, camera({.from = Vec3{5, 0, 0}, .to = Vec3{}}));
+    EXPECT_FALSE(look_again({}, scene, {})) << "nobody knows who looks then";
+    auto lying = camera({.from = Vec3{5, 0, 0}, .to = Vec3{}, .up = Vec3{0, 0, 1}});
+    lying.sky.emplace();
+    EXPECT_FALSE(look_again(lying, scene, {})) << "another axis is up for it, and so for the sky";
+}
+
 TEST(SceneOverrides, KeepWhatTheyDoNotName) {
     CameraOverride change;
     change.to = Vec3{1, 0, 4};

@@ -184,5 +184,27 @@ TEST(Camera, IsTheOneGivenOrOneThatSeesTheScene) {
     EXPECT_EQ(Scene(data).camera().ray(0, 0).origin, (Vec3{0, 0, 0}));
 }
 
+TEST(Camera, IsAllThatDiffersWhereASceneIsLookedAtOtherwise) {
+    SceneData data;
+    test::add(data, test::ball({100, 0, 0}, 2), test::diffuse(data, 0.5f));
+    data.camera = test::camera({0, 0, 0}, {1, 0, 0}, 60);
+    data.camera_given = true;
+    const SceneOptions options{.width = 64, .height = 32};
+    const Scene whole(data, options);
+    const Onlooker by{test::camera({100, 0, 9}, {100, 0, 0}, 30), true, FilmData{8, 8, 2}};
+    const Scene other(whole, by, options);
+    data.camera = by.camera, data.film = by.film;
+    const Scene anew(data, options);
+    const Ray ray = other.camera().ray(20, 11), same = anew.camera().ray(20, 11);
+    EXPECT_EQ(ray.origin, same.origin);
+    EXPECT_EQ(ray.direction, same.direction);
+    EXPECT_EQ(other.seen_from().to_world, by.camera.to_world);
+    EXPECT_EQ(other.film().width, 64) << "of the picture that is asked for";
+    EXPECT_EQ(other.film().scale, 2);
+    EXPECT_EQ(whole.seen_from().to_world.m[0][3], 0);
+    EXPECT_EQ(&other.data(), &whole.data()) << "nothing is there twice";
+    EXPECT_TRUE(other.intersect(other.camera().ray(32, 16)));
+}
+
 }  // namespace
 }  // namespace lightnet::camera_test

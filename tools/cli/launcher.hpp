@@ -11,6 +11,7 @@
 #include "tools/cli/settings.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/request/run_request.hpp"
+#include "tools/request/sequence.hpp"
 #include "tools/support/command_line.hpp"
 #include "tools/support/program_text.hpp"
 
@@ -26,6 +27,8 @@ struct Launcher {
     /// Adds the kinds of these shared libraries to the registry; throws UserError. None: a launcher without plugins.
     std::function<void(const std::vector<std::string>& files)> plug = {};
     Settings settings = {};  // of options that command lines leave open
+    /// Renders a sequence; an exit code. None: a launcher of stills.
+    std::function<int(Sequence)> run_sequence = {};
 
     /// Runs a command line (without the program's name) and returns the exit code; never throws.
     int operator()(const std::vector<std::string>& arguments) const;

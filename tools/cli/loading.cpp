@@ -77,7 +77,7 @@ Written with_hosts(Graph graph, std::vector<Problem> problems, const std::string
 }  // namespace
 
 Written read_files(const GraphOptions& graph, const std::string& hosts) {
-    GraphFile file = read_graph(graph.file, {.constants = graph.constants});
+    GraphFile file = read_graph(graph.file, {.constants = graph.constants, .frame = graph.frame});
     return with_hosts(std::move(file.graph), std::move(file.problems), hosts);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/film/gains.hpp"
+#include "lua/load_graph.hpp"
 #include "tools/request/run_request.hpp"
 #include "tools/support/progress.hpp"
 #include "transport/start/fault_injection.hpp"
@@ -23,6 +24,7 @@ namespace lightnet {
 struct GraphOptions {
     std::string file;
     std::map<std::string, std::string> constants;  // -D
+    GraphFrame frame{};                            // for which it is evaluated
 };
 
 /// Width and height, pixels.

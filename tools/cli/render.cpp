@@ -8,13 +8,15 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/frame_name.hpp"
 #include "core/base/suggestion.hpp"
+#include "core/network/graph/value.hpp"
 #include "lua/load_graph.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr double usual_samples = 64;
+constexpr double usual_samples = 64, usual_fps = 24;
 
 /// "0.5" or "1,0.9,0.8" as a table of three numbers; none: something else.
 std::optional<Table> colour_of(std::string_view text) {
@@ -51,8 +53,10 @@ Graph own_graph(const RenderedScene& wanted, const std::vector<std::string>& kin
     const SourceLine where{wanted.file, 0};
     Graph graph;
     graph.file = wanted.file;
-    const std::string file = std::filesystem::path(wanted.file).filename().string();
+    const std::string file = std::filesystem::path(with_frame(wanted.file, wanted.frame.number)).filename().string();
     graph.nodes.push_back({"scene", "Scene", {{file}}, {}, where});
+    if (wanted.frame.asked)
+        graph.nodes.back().params["time"] = {(wanted.frame.number - 1) / (wanted.fps > 0 ? wanted.fps : usual_fps)};
     Node sum{"light", "Combine", {}, {}, where};
     for (const auto& kind : kinds) {
         const std::string name = kind == "DirectLighting" ? "direct" : kind == "PathTracing" ? "bounce" : "openness";
@@ -86,10 +90,12 @@ RenderGraph render_graph(const RenderedScene& wanted) {
         throw UserError({"--lighting", 0}, "must be path, direct, ao or a graph file (.lua), not '" + wanted.lighting +
                                                "'" + did_you_mean(wanted.lighting, {"path", "direct", "ao"}));
     } else {
-        GraphFile file = read_graph(wanted.lighting, {.constants = wanted.constants});
+        auto constants = wanted.constants;
+        if (wanted.fps > 0) constants["fps"] = number_text(wanted.fps);
+        GraphFile file = read_graph(wanted.lighting, {.constants = std::move(constants), .frame = wanted.frame});
         result = {std::move(file.graph), std::move(file.problems)};
         for (auto& node : result.graph.nodes)
-            if (node.kind == "Scene") node.entries = {{from_anywhere(wanted.file)}};
+            if (node.kind == "Scene") node.entries = {{from_anywhere(with_frame(wanted.file, wanted.frame.number))}};
     }
     for (auto& node : result.graph.nodes)
         if (node.kind == "Scene") override_scene(node, wanted);

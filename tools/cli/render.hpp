@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/network/graph/graph.hpp"
+#include "lua/load_graph.hpp"
 #include "tools/cli/options.hpp"
 
 namespace lightnet {
@@ -26,6 +27,8 @@ struct RenderedScene {
     std::string environment;                       // a picture's file or a colour; "": as the scene says
     bool two_sided = false;                        // no surface is black from behind
     std::map<std::string, std::string> constants;  // -D: of the scene file, or of the graph file
+    GraphFrame frame{};                            // which is rendered
+    double fps = 0;                                // 0: as a graph file says, or 24
 };
 
 /// The graph that lights the scene in the way of its `lighting`; the scenes of a graph file are replaced by this one.

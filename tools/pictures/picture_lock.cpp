@@ -82,8 +82,8 @@ PictureLock::PictureLock(const std::string& picture) {
             ::close(file_);
             file_ = -1;
             if (!taken) return;
-            throw UserError({picture, 0}, "another run is writing this picture" + who_has(path_) +
-                                              ": wait for its end, or choose another name with -o");
+            throw PictureTaken({picture, 0}, "another run is writing this picture" + who_has(path_) +
+                                                 ": wait for its end, or choose another name with -o");
         }
         if (still_there()) break;
         ::close(file_);  // its last owner has just removed it

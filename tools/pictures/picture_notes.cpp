@@ -10,7 +10,6 @@
 #include "core/base/name_id.hpp"
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/scene/camera/camera_matrices.hpp"
-#include "core/scene/camera_in.hpp"
 
 namespace lightnet {
 namespace {
@@ -33,14 +32,15 @@ std::string manifest_of(const SceneData& scene, NamedBy by) {
 }
 
 PictureWords words_of(const Graph& graph, const Registry& registry, const FilmFormat& format,
-                      const std::map<std::string, std::string>& recipe, const SceneData& scene) {
+                      const std::map<std::string, std::string>& recipe, const SceneData& scene,
+                      const CameraData& seen_from) {
     PictureWords words;
     auto& texts = words.notes.texts;
     texts["software"] = "lightnet " + version();
     texts["seed"] = recipe.at("seed");
     texts["graph"] = recipe.at("graph");
     if (const auto groups = lamp_groups(graph, registry); !groups.empty()) texts["groups"] = joined(groups);
-    const auto camera = matrices_of(camera_in(scene, format.width, format.height), format.width, format.height);
+    const auto camera = matrices_of(seen_from, format.width, format.height);
     words.notes.matrices["worldToCamera"] = for_rows(camera.to_camera);
     if (camera.to_ndc) words.notes.matrices["worldToNDC"] = for_rows(*camera.to_ndc);
     for (const auto& [name, count] : format.ids) {

@@ -24,7 +24,8 @@ struct PictureWords {
 /// as in picture_recipe()) and groups of lamps. Nothing of when, where or by whom it was made. `scene`: as it is
 /// rendered.
 PictureWords words_of(const Graph& graph, const Registry& registry, const FilmFormat& format,
-                      const std::map<std::string, std::string>& recipe, const SceneData& scene);
+                      const std::map<std::string, std::string>& recipe, const SceneData& scene,
+                      const CameraData& seen_from);
 
 /// A matte's names and their ids (name_id(), 8 hexadecimal digits): JSON in ASCII, sorted by name, as the specification
 /// of Cryptomatte has it. What is not UTF-8 in a name is replaced.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -44,6 +45,13 @@ struct SshRequest {
     std::string daemon;                // lightnetd there; "": as here, or else in the PATH there
 };
 
+/// Which frame of a sequence a run is.
+struct FrameOfSequence {
+    int number = 1;
+    std::size_t index = 0, count = 1;               // among those that are to be rendered
+    std::chrono::steady_clock::time_point begun{};  // the sequence
+};
+
 /// A run, ready to go.
 struct RunRequest {
     Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
@@ -76,6 +84,7 @@ struct RunRequest {
     double preview = 0;                         // seconds between two pictures of what is there; 0: none
     std::optional<WatchAddress> viewer;         // tev, to be shown the picture while it grows
     ProgressMode progress = ProgressMode::automatic;
+    std::optional<FrameOfSequence> frame;  // none: a still
 };
 
 }  // namespace lightnet

@@ -36,7 +36,7 @@ std::string seen_from_elsewhere(const std::string& endpoint) {
 }  // namespace
 
 Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<double()> done)
-    : request_(request), say_(cluster.say), done_(std::move(done)) {
+    : request_(&request), say_(cluster.say), done_(std::move(done)) {
     for (const auto& host : request.hosts.hosts) {
         if (host.is_here()) continue;
         const bool joins = !address_of(host.endpoint);
@@ -62,42 +62,42 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<do
 }
 
 void Crew::start_local_workers(Cluster::Options& cluster) {
-    const auto cores = std::max(1u, usable_cores() / request_.local_workers);
-    const auto places = request_.local_places ? request_.local_places : cores;
-    const LocalWorkers::Keys keys{.launcher = request_.keys.own.open};
-    auto cache = request_.tuning.cache == "none" ? "" : request_.tuning.cache;
+    const auto cores = std::max(1u, usable_cores() / request_->local_workers);
+    const auto places = request_->local_places ? request_->local_places : cores;
+    const LocalWorkers::Keys keys{.launcher = request_->keys.own.open};
+    auto cache = request_->tuning.cache == "none" ? "" : request_->tuning.cache;
     if (cache.empty()) cache = cache_or_spare(spare_cache_, "local workers keep", say_);
-    local_.emplace(daemon_program(), request_.local_workers, places, keys, request_.troubles, std::move(cache));
+    local_.emplace(daemon_program(), request_->local_workers, places, keys, request_->troubles, std::move(cache));
     for (const auto& endpoint : local_->endpoints()) {
         cluster.endpoints.push_back(endpoint);
         cluster.host_keys[endpoint] = keys.workers.open;
     }
     if (const auto missing = local_->missing())
-        say_(std::to_string(missing) + " of " + std::to_string(request_.local_workers) +
+        say_(std::to_string(missing) + " of " + std::to_string(request_->local_workers) +
              " local workers did not start; the run goes on without");
 }
 
 void Crew::start_slurm() {
     SlurmWorkers::Request array{daemon_program(),
                                 seen_from_elsewhere(cluster_->join_endpoint()),
-                                request_.slurm.daemons,
-                                request_.slurm.partition,
-                                request_.slurm.arguments,
+                                request_->slurm.daemons,
+                                request_->slurm.partition,
+                                request_->slurm.arguments,
                                 {},
-                                request_.pass.empty() ? "" : std::filesystem::absolute(request_.pass).string()};
-    if (const auto& key = request_.keys.slurm) {
+                                request_->pass.empty() ? "" : std::filesystem::absolute(request_->pass).string()};
+    if (const auto& key = request_->keys.slurm) {
         slurm_key_.emplace("slurm-" + key->open.fingerprint() + ".key", *key);
-        array.keys = {slurm_key_->path(), request_.keys.own.open};
+        array.keys = {slurm_key_->path(), request_->keys.own.open};
     }
     slurm_.emplace(array);
-    say_("Slurm has taken job " + slurm_->job() + " of " + std::to_string(request_.slurm.daemons) + " daemons");
+    say_("Slurm has taken job " + slurm_->job() + " of " + std::to_string(request_->slurm.daemons) + " daemons");
 }
 
 void Crew::start_ssh() {
     const auto endpoint = cluster_->join_endpoint();
-    const auto daemon = request_.ssh.daemon.empty() ? daemon_program() : request_.ssh.daemon;
-    ssh_.emplace(SshWorkers::Request{request_.keys.ssh, request_.ssh.command, daemon, seen_from_elsewhere(endpoint),
-                                     seen_from_elsewhere(endpoint) != endpoint, request_.keys.own.open});
+    const auto daemon = request_->ssh.daemon.empty() ? daemon_program() : request_->ssh.daemon;
+    ssh_.emplace(SshWorkers::Request{request_->keys.ssh, request_->ssh.command, daemon, seen_from_elsewhere(endpoint),
+                                     seen_from_elsewhere(endpoint) != endpoint, request_->keys.own.open});
 }
 
 // Who has joined dials the same port again.
@@ -105,15 +105,35 @@ void Crew::begin_anew(std::uint64_t run, const std::set<std::string>& liars, std
     options_.run = run;
     options_.liars = liars;
     options_.network = std::move(network);
+    connect();
+}
+
+void Crew::connect() {
     if (!options_.listen.empty()) options_.listen = cluster_->join_endpoint();
     cluster_.reset();
     cluster_ = std::make_unique<Cluster>(options_);
 }
 
+void Crew::begin_next(const RunRequest& request, Cluster::Options cluster, std::function<double()> done) {
+    request_ = &request;
+    say_ = cluster.say;
+    done_ = std::move(done);
+    options_.run = cluster.run;
+    options_.who = std::move(cluster.who);
+    options_.liars = std::move(cluster.liars);
+    options_.network = std::move(cluster.network);
+    options_.job = std::move(cluster.job);
+    options_.files = std::move(cluster.files);
+    options_.plan = std::move(cluster.plan);
+    options_.say = std::move(cluster.say);
+    options_.warn = std::move(cluster.warn);
+    connect();
+}
+
 void Crew::gather(const std::atomic<bool>& cancelled, std::optional<std::chrono::milliseconds> most) {
     Cluster::Patience patience{host_patience, host_patience};
-    if (!request_.listen.empty()) patience.nobody = std::max<std::chrono::milliseconds>(request_.wait, host_patience);
-    patience.busy = request_.busy_wait;
+    if (!request_->listen.empty()) patience.nobody = std::max<std::chrono::milliseconds>(request_->wait, host_patience);
+    patience.busy = request_->busy_wait;
     patience.most = most;
     cluster_->gather(patience, cancelled, [this] { look_after(); });
 }
@@ -122,7 +142,7 @@ std::vector<std::string> Crew::missing() const {
     std::vector<std::string> hosts;
     for (const auto& [name, why] : cluster_->missing()) {
         std::string nodes;
-        for (const auto& entry : request_.hosts.hosts)
+        for (const auto& entry : request_->hosts.hosts)
             if (entry.host() == name)
                 for (const auto& [node, count] : entry.replicas) nodes += (nodes.empty() ? "" : ", ") + node;
         hosts.push_back(name + ": " + why + "; it was to hold " + (nodes.empty() ? "the whole network" : nodes));

@@ -32,6 +32,9 @@ public:
     /// All hosts but `liars` take part in another run, `run`, with `network` for places of this process; the one so far
     /// is over. gather() waits for them.
     void begin_anew(std::uint64_t run, const std::set<std::string>& liars, std::shared_ptr<const Network> network);
+    /// All hosts take part in the next run, of another request for the same hosts: `cluster` and `done` are as for the
+    /// first. The one so far is over. gather() waits for them.
+    void begin_next(const RunRequest& request, Cluster::Options cluster, std::function<double()> done);
     /// Waits for those that are to be there from the beginning; no longer than `most`.
     void gather(const std::atomic<bool>& cancelled, std::optional<std::chrono::milliseconds> most);
     /// Hosts that the user named and that take no part: why, and what others have to do for them.
@@ -43,7 +46,8 @@ private:
     void start_local_workers(Cluster::Options& cluster);
     void start_slurm();
     void start_ssh();
-    const RunRequest& request_;
+    void connect();
+    const RunRequest* request_;
     std::function<void(const std::string&)> say_;
     std::function<double()> done_;
     std::optional<SpareCache> spare_cache_;  // outlives the workers

@@ -91,7 +91,7 @@ int finish_run(RunRecorder& book, const RunRequest& request, double exposure, co
     const bool in_place = picture == request.output;
     if (in_place) book.end_checkpoint(!request.forget);
     book.write_report(picture, in_place ? "done" : "failed");
-    book.conclude(request.hosts, exposure);
+    if (!request.frame) book.conclude(request.hosts, exposure);  // else the sequence has the last word
     return in_place ? exit_code::done : exit_code::failed;
 }
 

@@ -49,6 +49,7 @@ Rendering::Rendering(Assignment what, RunRecorder& book, const Signals& signals)
       image_(renderer_of(what_.job.graph, what_.registry)),
       id_(secret_number()) {
     book_.name_run(id_);
+    if (what_.handover) liars_ = what_.handover->liars();
 }
 
 void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
@@ -64,10 +65,16 @@ void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
     }
 }
 
+std::shared_ptr<const Network> Rendering::network_of(LoadedScene scene) {
+    auto network = build_network(what_.job, what_.registry, std::move(scene));
+    if (what_.handover) what_.handover->hold(network->scene);
+    book_.share(network, made_from(what_.job));
+    return network;
+}
+
 void Rendering::serially(LoadedScene scene) {
     book_.phase("prepare");
-    const auto network = build_network(what_.job, what_.registry, std::move(scene));
-    book_.share(network, made_from(what_.job));
+    const auto network = network_of(std::move(scene));
     std::optional<SamplingProfiler> profiler;
     const Crowd alone{{}, {}, [&] { return std::vector{this_process(1, profiler->figures())}; }, {}};
     SerialRun run(*network, [&] {
@@ -112,8 +119,7 @@ void Rendering::render(SerialRun& run) {
 
 void Rendering::in_threads(LoadedScene scene) {
     book_.phase("prepare");
-    const auto network = build_network(what_.job, what_.registry, std::move(scene));
-    book_.share(network, made_from(what_.job));
+    const auto network = network_of(std::move(scene));
     const Plan plan =
         lightnet::plan(what_.job.graph, what_.registry, what_.request.hosts, {{"", what_.request.threads}});
     ThreadedRun run(network, id_, plan, what_.job.tuning);
@@ -247,16 +253,23 @@ Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
 void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     book_.phase("prepare");
     auto options = cluster_options(files);
-    if (what_.request.threads) {
-        options.network = build_network(what_.job, what_.registry, std::move(scene));
-        book_.share(options.network, made_from(what_.job));
-    }
-    Crew crew(what_.request, std::move(options), [this] { return book_.share_done(); });
+    options.liars = liars_;
+    if (what_.request.threads)
+        options.network = network_of(std::move(scene));
+    else if (what_.handover)
+        what_.handover->hold(std::move(scene.data));
+    std::optional<Crew> own;
+    auto& crew = what_.handover ? what_.handover->crew() : own;
+    const auto done = [this] { return book_.share_done(); };
+    if (crew)
+        crew->begin_next(what_.request, std::move(options), done);
+    else
+        crew.emplace(what_.request, std::move(options), done);
     while (true) {
         try {
-            return on(crew);
+            return on(*crew);
         } catch (const Lie& lie) {
-            begin_anew(crew, lie.what);
+            begin_anew(*crew, lie.what);
         }
     }
 }
@@ -277,6 +290,7 @@ void Rendering::begin_anew(Crew& crew, const Failure& lie) {
         book_.alert(lie.host + " is taken out, as it answers falsely: " + lie.why +
                     "; all that it has told is done again");
         liars_.insert(lie.host);
+        if (what_.handover) what_.handover->liars() = liars_;
     }
     id_ = secret_number();
     book_.name_run(id_);

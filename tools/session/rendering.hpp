@@ -22,6 +22,7 @@
 #include "core/run/serial/serial.hpp"
 #include "tools/request/run_request.hpp"
 #include "tools/session/crew.hpp"
+#include "tools/session/handover.hpp"
 #include "tools/session/kept_files.hpp"
 #include "tools/session/run_recorder.hpp"
 #include "tools/support/signals.hpp"
@@ -37,6 +38,7 @@ struct Assignment {
     const Job& job;
     const FilmFormat& format;
     const KeptFiles& kept;
+    Handover* handover = nullptr;  // between the runs of a sequence; null: this one is alone
 };
 
 /// One thread's. Tiles go into the book; a signal ends it early, and so does the book's limit of time.
@@ -48,6 +50,7 @@ public:
     void perform(LoadedScene scene, const DiskFiles& files);
 
 private:
+    std::shared_ptr<const Network> network_of(LoadedScene scene);
     void serially(LoadedScene scene);
     void in_threads(LoadedScene scene);
     void on_hosts(LoadedScene scene, const DiskFiles& files);

@@ -13,36 +13,53 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/run/assembly/load_scene.hpp"
+#include "core/scene/camera_in.hpp"
 #include "tools/pictures/clean.hpp"
 #include "tools/pictures/output_file.hpp"
 #include "tools/pictures/picture_lock.hpp"
 #include "tools/pictures/picture_recipe.hpp"
 #include "tools/request/run_settings.hpp"
 #include "tools/session/delivery.hpp"
+#include "tools/session/handover.hpp"
 #include "tools/session/kept_files.hpp"
 #include "tools/session/rendering.hpp"
 #include "tools/session/run_recorder.hpp"
 #include "tools/session/run_trace.hpp"
+#include "tools/session/sequence_report.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/signals.hpp"
 
 namespace lightnet {
 namespace {
 
+std::optional<Progress::Series> series_of(const RunRequest& request) {
+    if (!request.frame) return std::nullopt;
+    const auto& [number, index, count, begun] = *request.frame;
+    return Progress::Series{number, index, count, begun};
+}
+
+// A scene as those see it who write of it.
+const SceneData& data_of(const LoadedScene& scene) { return scene.built ? scene.built->data() : scene.data; }
+
 // One run of a checked graph, from its scene to its files.
 class Run {
 public:
-    Run(const RunRequest& request, const Registry& registry)
+    Run(const RunRequest& request, const Registry& registry, Handover* handover)
         : request_(request),
           registry_(registry),
+          handover_(handover),
           signals_(watch_signals()),
           format_(film_format(request, registry)),
-          book_(format_, request.progress, request.tuning.tile, first_page(request, registry, format_)) {}
+          book_(format_, request.progress, request.tuning.tile, first_page(request, registry, format_),
+                series_of(request)) {}
 
     int perform();
 
 private:
-    LoadedScene load(DiskFiles& files);
+    LoadedScene load();
+    std::optional<LoadedScene> load_again();
+    void warn_of(const SceneData& scene);
+    bool was_there(LoadedScene& scene);
     int render();
     int cancelled();
     std::string write_what_is_there(std::optional<std::chrono::duration<double>> most, const std::string& outcome);
@@ -50,46 +67,84 @@ private:
     void open_to_watchers();
     int perform_watched();
     bool show_outcome(const std::string& outcome);
-    void take_up_checkpoint(const SceneData& scene);
+    void take_up_checkpoint(const LoadedScene& scene);
     void report_failure();
 
     const RunRequest& request_;
     const Registry& registry_;
+    Handover* handover_;
     const Signals& signals_;
     FilmFormat format_;
     RunRecorder book_;
     std::optional<LiveExplainer> explainer_;
     std::optional<Watcher> watcher_;
     Job job_;
+    std::shared_ptr<ReadScene> read_;  // whose data is taken away
 };
 
-void Run::take_up_checkpoint(const SceneData& scene) {
+void Run::take_up_checkpoint(const LoadedScene& scene) {
     auto recipe = picture_recipe(job_, registry_, format_, request_.tuning.tile);
-    book_.describe(words_of(request_.graph, registry_, format_, recipe, scene));
+    const CameraData camera =
+        scene.built ? scene.built->seen_from() : camera_in(scene.data, format_.width, format_.height);
+    book_.describe(words_of(request_.graph, registry_, format_, recipe, data_of(scene), camera));
     book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint));
     if (request_.resume) book_.take_up_checkpoint();
 }
 
-LoadedScene Run::load(DiskFiles& files) {
+LoadedScene Run::load() {
     book_.phase("load");
-    SceneData read = request_.read ? std::move(request_.read->scene)
-                                   : read_scene(files, request_.scene, scene_constants(request_.graph, registry_));
-    LoadedScene scene = override_scene(request_.graph, registry_, files, std::move(read));
-    for (const auto& warning : scene.data.warnings)
-        if (is_of_files_outside(warning) && request_.mode == Mode::network)
-            book_.alert(to_string(warning));
-        else
-            book_.warn(to_string(warning));
-    job_ = make_job(request_, registry_, format_, files);
+    if (auto again = load_again()) return *std::move(again);
+    read_ = request_.read;
+    if (!read_) {
+        read_ = std::make_shared<ReadScene>();
+        read_->scene = read_scene(read_->files, request_.scene, scene_constants(request_.graph, registry_));
+    }
+    LoadedScene scene = override_scene(request_.graph, registry_, read_->files, std::move(read_->scene));
+    warn_of(scene.data);
+    job_ = make_job(request_, registry_, format_, read_->files);
+    if (handover_) handover_->hold(job_, registry_, read_);
     return scene;
 }
 
+// The scene of the frame before, where this one has the same.
+std::optional<LoadedScene> Run::load_again() {
+    if (!handover_ || !handover_->read()) return std::nullopt;
+    read_ = handover_->read();
+    job_ = make_job(request_, registry_, format_, read_->files);
+    return handover_->take(job_, registry_);
+}
+
+void Run::warn_of(const SceneData& scene) {
+    for (const auto& warning : scene.warnings) {
+        const auto text = to_string(warning);
+        if (handover_ && !handover_->is_new(text)) continue;
+        if (is_of_files_outside(warning) && request_.mode == Mode::network)
+            book_.alert(text);
+        else
+            book_.warn(text);
+    }
+}
+
+// Of a frame that is to be gone on with: another run, or an earlier one, has done all of it.
+bool Run::was_there(LoadedScene& scene) {
+    if (!request_.frame) return false;
+    const auto recipe = recipe_of_frame(job_);
+    book_.set("recipe", recipe);
+    book_.set("frame", std::to_string(request_.frame->number));
+    if (!request_.resume || !is_there(request_.output, recipe)) return false;
+    if (handover_) handover_->was_there = true;
+    if (handover_ && scene.built)
+        handover_->hold(scene.built);
+    else if (handover_)
+        handover_->hold(std::move(scene.data));
+    return true;
+}
+
 int Run::render() {
-    DiskFiles own;
-    DiskFiles& files = request_.read ? request_.read->files : own;
-    LoadedScene scene = load(files);
-    const KeptFiles to_keep(request_.graph, registry_, scene.data);
-    book_.expose(scene.data.film.scale);
+    LoadedScene scene = load();
+    if (was_there(scene)) return exit_code::done;
+    const KeptFiles to_keep(request_.graph, registry_, data_of(scene));
+    book_.expose(scene.built ? scene.built->film().scale : scene.data.film.scale);
     book_.limit_time(request_.time_limit);
     if (!request_.reference.empty()) {
         const Window wanted = format_.crop.value_or(Window{0, 0, format_.width, format_.height});
@@ -98,7 +153,7 @@ int Run::render() {
     book_.show_png(request_.view, scene_overrides(request_.graph, registry_).exposure != 0);
     book_.trace_to(request_.trace);
     if (request_.preview > 0) book_.preview(request_.output, request_.preview);
-    take_up_checkpoint(scene.data);
+    take_up_checkpoint(scene);
     if (book_.complete() && book_.is_written(request_.output)) {
         book_.say(request_.output + " is finished: nothing to do; ask for more with --samples");
         return exit_code::done;
@@ -106,7 +161,8 @@ int Run::render() {
     if (book_.complete())
         book_.say(request_.output + " is finished but for its file");
     else
-        Rendering({request_, registry_, job_, format_, to_keep}, book_, signals_).perform(std::move(scene), files);
+        Rendering({request_, registry_, job_, format_, to_keep, handover_}, book_, signals_)
+            .perform(std::move(scene), read_->files);
     if (signals_.any) return cancelled();
     if (!book_.complete() && !end_in_time()) return exit_code::failed;
     book_.phase("write");
@@ -226,8 +282,8 @@ void Run::report_failure() {
 
 }  // namespace
 
-int run(const RunRequest& request, const Registry& registry) try {
-    return Run(request, registry).perform();
+int run(const RunRequest& request, const Registry& registry, Handover* handover) try {
+    return Run(request, registry, handover).perform();
 } catch (const std::bad_alloc&) {  // whose own words are none
     const auto film = film_of(request.graph, registry);
     throw Error(

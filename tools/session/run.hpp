@@ -6,7 +6,10 @@
 
 namespace lightnet {
 
-/// Renders, and writes the picture. Returns an exit code; throws UserError (a scene that is wrong) or Error.
-int run(const RunRequest& request, const Registry& registry);
+class Handover;
+
+/// Renders, and writes the picture. `handover`: between the runs of a sequence; null: this one is alone. Returns an
+/// exit code; throws UserError (a scene that is wrong; PictureTaken: another run is at it) or Error.
+int run(const RunRequest& request, const Registry& registry, Handover* handover = nullptr);
 
 }  // namespace lightnet

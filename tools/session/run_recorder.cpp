@@ -42,11 +42,22 @@ std::string shown_host(const std::string& host) { return host.empty() ? std::str
 
 }  // namespace
 
-RunRecorder::RunRecorder(FilmFormat format, ProgressMode progress, std::uint32_t tile, RunReport report)
+namespace {
+
+Progress::Style style_of(ProgressMode progress, std::optional<Progress::Series> series) {
+    auto style = Progress::style_of_stderr(progress);
+    style.series = series;
+    return style;
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(FilmFormat format, ProgressMode progress, std::uint32_t tile, RunReport report,
+                         std::optional<Progress::Series> series)
     : steps_(std::move(format), tile),
       report_(std::move(report)),
       all_blocks_(work_in(tiles_of(film().format().work(), tile, film().format().samples))),
-      progress_(all_blocks_, Progress::style_of_stderr(progress), std::cerr, Clock::now()) {}
+      progress_(all_blocks_, style_of(progress, series), std::cerr, Clock::now()) {}
 
 void RunRecorder::end_phase(Clock::time_point now) {
     end_doing(now);

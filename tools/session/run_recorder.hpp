@@ -35,7 +35,8 @@ namespace lightnet {
 class RunRecorder {
 public:
     /// `tile`: pixels along a side.
-    RunRecorder(FilmFormat format, ProgressMode progress, std::uint32_t tile, RunReport report);
+    RunRecorder(FilmFormat format, ProgressMode progress, std::uint32_t tile, RunReport report,
+                std::optional<Progress::Series> series = {});
     RunRecorder(const RunRecorder&) = delete;
     RunRecorder& operator=(const RunRecorder&) = delete;
 

@@ -65,11 +65,27 @@ Progress::Progress(std::uint64_t total, Style style, std::ostream& out, Time now
       work_begun_(now),
       reported_(now) {
     if (mode_ == ProgressMode::automatic) mode_ = style_.terminal ? ProgressMode::bar : ProgressMode::plain;
-    if (mode_ == ProgressMode::json)
-        out_ << to_text({{"event", "begin"}, {"format", "lightnet progress 1"}, {"total", total_}}) << std::endl;
+    if (style_.series) tenths_ = static_cast<int>(fraction() * 10);
+    if (mode_ != ProgressMode::json) return;
+    JsonTree line{{"event", "begin"}, {"format", "lightnet progress 1"}, {"total", total_}};
+    if (const auto& series = style_.series) line["frame"] = series->frame;
+    out_ << to_text(line) << std::endl;
 }
 
 double Progress::fraction() const {
+    const auto& series = style_.series;
+    if (!series) return own_fraction();
+    const double own = step_ ? 0 : own_fraction();
+    return (static_cast<double>(series->index) + own) / static_cast<double>(series->count);
+}
+
+std::optional<double> Progress::seconds_of_series_left(Time now) const {
+    const double done = fraction();
+    if (!(done > 0)) return {};
+    return seconds(now - style_.series->begun) * (1 - done) / done;
+}
+
+double Progress::own_fraction() const {
     const auto [done, total] = step_ ? std::pair(step_->done, step_->total) : std::pair(done_, total_);
     if (!total) return step_ ? 0 : 1;
     return static_cast<double>(std::min(done, total)) / static_cast<double>(total);
@@ -86,6 +102,7 @@ std::optional<double> Progress::seconds_of_work_left(Time now) const {
     const auto left = [](double so_far, std::uint64_t done, std::uint64_t to_do) {
         return so_far / static_cast<double>(done) * static_cast<double>(to_do);
     };
+    if (style_.series) return seconds_of_series_left(now);
     if (step_) {
         if (step_->done == 0) return {};
         return left(seconds(now - step_->begun), step_->done, step_->total - step_->done);
@@ -154,8 +171,9 @@ void Progress::plain_line(Time now) {
 }
 
 std::string Progress::label() const {
-    if (step_) return step_->name;
-    return phase_.empty() ? "done" : phase_;
+    const auto of_frame = style_.series ? fmt::format("frame {} ", style_.series->frame) : "";
+    if (step_) return of_frame + step_->name;
+    return of_frame + (phase_.empty() ? "done" : phase_);
 }
 
 // "render   [=====     ]  50 %  3 s left", never longer than a line: the bar shortens first, then goes.
@@ -185,6 +203,8 @@ void Progress::line_of_json(std::string_view event, Time now) {
         {"event", event}, {"phase", phase_}, {"done", done_}, {"total", total_}, {"seconds", seconds(now - begun_)}};
     if (step_) line["step"] = step_->name, line["step_done"] = step_->done, line["step_total"] = step_->total;
     if (const auto left = seconds_left(now)) line["seconds_left"] = *left;
+    if (const auto& series = style_.series)
+        line["frame"] = series->frame, line["frames_done"] = series->index, line["frames"] = series->count;
     out_ << to_text(line) << std::endl;
 }
 

@@ -27,12 +27,20 @@ class Progress {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
+    /// Of a sequence of runs, whose bar all of them move.
+    struct Series {
+        int frame = 1;
+        std::size_t index = 0, count = 1;  // of this one, among all that are to be rendered
+        Time begun{};                      // the first
+    };
+
     struct Style {
         ProgressMode mode = ProgressMode::automatic;
         bool terminal = false;  // what `automatic` looks at
         bool colour = false;    // bar only
         /// Letters in a line of the terminal, now: people change it while they wait.
         std::function<int()> columns = [] { return 80; };
+        std::optional<Series> series{};
     };
 
     /// The style for standard error: looks at the terminal and at NO_COLOR.
@@ -82,8 +90,10 @@ private:
     std::string bar_text(std::size_t columns, Time now) const;
     std::string label() const;
     std::optional<double> seconds_of_work_left(Time now) const;
+    std::optional<double> seconds_of_series_left(Time now) const;
     void clear_bar();
     void line_of_json(std::string_view event, Time now);
+    double own_fraction() const;
     double fraction() const;
 
     std::uint64_t total_, done_ = 0, found_ = 0;

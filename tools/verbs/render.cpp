@@ -1,12 +1,15 @@
 // lightnet render: renders a scene file, by a graph that it makes of it.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "core/base/frame_name.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/run/assembly/load_scene.hpp"
 #include "tools/cli/launcher.hpp"
@@ -14,6 +17,7 @@
 #include "tools/cli/options.hpp"
 #include "tools/cli/render.hpp"
 #include "tools/cli/request_of.hpp"
+#include "tools/cli/sequence_of.hpp"
 #include "tools/support/command_line.hpp"
 
 namespace lightnet {
@@ -21,6 +25,7 @@ namespace {
 
 struct RenderOptions {
     RenderedScene scene;
+    FrameOptions frames;
     RunningOptions running;
 };
 
@@ -38,6 +43,7 @@ void describe_render(CLI::App& app, RenderOptions& options) {
                  "surfaces reflect on both sides, also where Mitsuba's are black from behind");
     add_constants(app, scene.constants,
                   "define a variable of the scene file, or a constant of GRAPH.lua (may be repeated)");
+    add_frames(app, options.frames);
     add_running(app, options.running);
     add_output(app, options.running.picture.output, "file of the picture, instead of the scene's name with .exr, here");
     when_taken_apart(app, [&options] {
@@ -54,21 +60,56 @@ std::map<std::string, std::string> constants_of(const Graph& graph) {
     return {};
 }
 
-int render_scene(const RenderOptions& options, const Launcher& launcher) {
-    const auto& scene = options.scene;
-    RunningOptions running = options.running;
-    Written written = read_files(scene, running.hosts);
-    auto read = std::make_shared<ReadScene>();
-    read->scene = read_scene(read->files, scene.file, constants_of(written.graph));
+/// What the file of the scene says of its picture.
+struct ScenePicture {
+    FilmData film;
+    std::shared_ptr<ReadScene> read;  // for the run
+};
+
+/// `running` says what the scene's file leaves open.
+RunRequest request_of(const RenderedScene& scene, Written written, RunningOptions running, const Launcher& launcher,
+                      std::optional<ScenePicture>& known) {
+    if (!known) {
+        const auto file = with_frame(scene.file, scene.frame.number);
+        auto read = std::make_shared<ReadScene>();
+        read->scene = read_scene(read->files, file, constants_of(written.graph));
+        const auto film = read->scene.film;
+        known = ScenePicture{film, std::move(read)};
+    }
     auto& picture = running.picture;
-    const auto& film = read->scene.film;
-    if (!picture.size) picture.size = PictureSize{film.width, film.height};
-    if (!picture.crop) picture.crop = crop_in_pixels(film.crop, *picture.size);
-    if (picture.output.empty()) picture.output = picture_of(scene.file);
+    if (!picture.size) picture.size = PictureSize{known->film.width, known->film.height};
+    if (!picture.crop) picture.crop = crop_in_pixels(known->film.crop, *picture.size);
     RunRequest request =
         request_of(running, launcher, validate_job(std::move(written), running.picture, launcher.registry));
-    request.read = std::move(read);
-    return launcher.run(request);
+    request.read = std::exchange(known->read, nullptr);
+    return request;
+}
+
+int render_still(const RenderedScene& scene, RunningOptions running, const Launcher& launcher) {
+    if (running.picture.output.empty()) running.picture.output = picture_of(scene.file);
+    std::optional<ScenePicture> picture;
+    return launcher.run(request_of(scene, read_files(scene, running.hosts), running, launcher, picture));
+}
+
+// All evaluate their Lua before the scene is read, which starts threads.
+int render_scene(const RenderOptions& options, const Launcher& launcher) {
+    RenderedScene scene = options.scene;
+    if (options.frames.numbers.empty()) return render_still(scene, options.running, launcher);
+    RunningOptions running = options.running;
+    scene.fps = options.frames.fps;
+    if (running.picture.output.empty())
+        running.picture.output = std::filesystem::path(without_frame_place(scene.file)).stem().string() + ".####.exr";
+    std::map<int, Written> written;
+    scene.frame = {0, *std::max_element(options.frames.numbers.begin(), options.frames.numbers.end()), true};
+    for (const int number : options.frames.numbers) {
+        scene.frame.number = number;
+        written.emplace(number, read_files(scene, running.hosts));
+    }
+    std::optional<ScenePicture> picture;
+    return run_frames(options.frames, running, launcher, [&](const GraphFrame& frame, const RunningOptions& own) {
+        scene.frame = frame;
+        return request_of(scene, std::move(written.at(frame.number)), own, launcher, picture);
+    });
 }
 
 }  // namespace

@@ -1,11 +1,19 @@
 // lightnet run: renders a graph.
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "core/base/error.hpp"
+#include "core/base/frame_name.hpp"
+#include "core/network/graph/graph_film.hpp"
+#include "core/network/graph/value.hpp"
+#include "tools/cli/frames.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/request_of.hpp"
+#include "tools/cli/sequence_of.hpp"
 #include "tools/support/command_line.hpp"
 
 namespace lightnet {
@@ -13,11 +21,13 @@ namespace {
 
 struct RunOptions {
     GraphOptions graph;
+    FrameOptions frames;
     RunningOptions running;
 };
 
 void describe_run(CLI::App& app, RunOptions& options) {
     add_graph(app, options.graph);
+    add_frames(app, options.frames);
     add_running(app, options.running);
     add_output(app, options.running.picture.output, "file of the picture, instead of the graph's");
     when_taken_apart(app, [&options] {
@@ -25,13 +35,48 @@ void describe_run(CLI::App& app, RunOptions& options) {
         return mistake ? mistake : settle(options.running);
     });
     add_examples(app, {"lightnet run graphs/cornell.lua --samples 16 -o cornell.exr",
-                       "lightnet run graphs/cornell.lua --local-workers 2"});
+                       "lightnet run graphs/cornell.lua --local-workers 2",
+                       "lightnet run graphs/film.lua --frames 1-24 -o film.####.exr"});
+}
+
+RunRequest request_of(const GraphOptions& graph, const RunningOptions& running, const Launcher& launcher) {
+    return request_of(running, launcher,
+                      validate_job(read_files(graph, running.hosts), running.picture, launcher.registry));
+}
+
+// The picture of a frame that nobody has named: "shot.####.exr" of "shot.lua".
+std::string usual_picture(const std::string& graph) {
+    return std::filesystem::path(graph).stem().string() + ".####.exr";
+}
+
+// A still is the first frame of what might be more.
+RunRequest still_of(const RunOptions& options, const Launcher& launcher) {
+    RunRequest request = request_of(options.graph, options.running, launcher);
+    if (options.running.picture.output.empty()) request.output = with_frame(request.output, GraphFrame{}.number);
+    return request;
+}
+
+// What --frames says of a graph, which -D can't.
+GraphOptions graph_of_frames(const RunOptions& options) {
+    GraphOptions graph = options.graph;
+    if (graph.constants.contains("frame"))
+        throw UserError({"-D frame", 0}, "--frames says which frame it is; leave one of them out");
+    if (options.frames.fps > 0) graph.constants["fps"] = number_text(options.frames.fps);
+    return graph;
 }
 
 int run_graph(const RunOptions& options, const Launcher& launcher) {
-    const auto& running = options.running;
-    Loaded loaded = validate_job(read_files(options.graph, running.hosts), running.picture, launcher.registry);
-    return launcher.run(request_of(running, launcher, std::move(loaded)));
+    if (options.frames.numbers.empty()) return launcher.run(still_of(options, launcher));
+    auto graph = graph_of_frames(options);
+    return run_frames(
+        options.frames, options.running, launcher, [&](const GraphFrame& frame, const RunningOptions& running) {
+            graph.frame = frame;
+            RunRequest request = request_of(graph, running, launcher);
+            const bool named =
+                !running.picture.output.empty() || !film_of(request.graph, launcher.registry).file.empty();
+            if (!named) request.output = usual_picture(graph.file);
+            return request;
+        });
 }
 
 }  // namespace

@@ -64,6 +64,8 @@ void line(std::ostream& out, std::string_view what, const std::string& text) {
 void print_names(const SceneData& scene, std::ostream& out) {
     for (std::size_t i = 0; scene.cameras.size() > 1 && i < scene.cameras.size(); ++i)
         line(out, "camera " + std::to_string(i + 1), scene.cameras[i].name);
+    for (const auto& [name, seconds] : scene.animations)
+        line(out, "animation", fmt::format("{}{}{:.4g} s", name, name.empty() ? "" : ", ", seconds));
     for (const auto& lamp : lamps_of(scene)) {
         const std::vector<std::string> others(lamp.names.begin() + 1, lamp.names.end());
         line(out, "lamp",

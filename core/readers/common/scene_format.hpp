@@ -14,11 +14,15 @@ namespace lightnet {
 /// Values for variables of a scene's file, by name.
 using SceneConstants = std::map<std::string, std::string>;
 
+/// Among these, at which time a scene is wanted (seconds), and which of its animations: names that no file can use.
+inline constexpr std::string_view time_constant = "@time", animation_constant = "@animation";
+
 /// One folder of core/readers, and one line in the table of read_scene.cpp; or brought by a plugin.
 struct SceneFormat {
     std::vector<std::string_view> endings;  // of its main files, with the dot, in lower case
     std::string_view maker{};               // whose format it is, where the ending does not tell
     bool has_variables = false;             // else it is given no constants
+    bool moves = false;                     // else it is not told of which time and animation it is to be read
     /// Reads the main file of a scene and all that it names, through `files` alone. Throws UserError with all that is
     /// wrong; approximations stand in the scene's warnings.
     SceneData (*read)(Files& files, const std::string& path, const SceneConstants& constants) = nullptr;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <string_view>
 #include <utility>
@@ -80,6 +81,47 @@ Document::Document(Assets& assets, const std::string& path) : assets_(assets), p
                                                    : fmt::format("asset.version is '{}': only glTF 2.0 is read",
                                                                  version.substr(0, 16)));
     buffers_.resize(root()["buffers"].size());
+}
+
+namespace {
+
+/// Null: there is none.
+Json* member(Json& of, const std::string& name) {
+    if (auto* object = std::get_if<Json::Object>(&of.data)) {
+        const auto found = object->find(name);
+        return found == object->end() ? nullptr : &found->second;
+    }
+    auto* list = std::get_if<Json::List>(&of.data);
+    std::size_t place = 0;
+    const auto [end, wrong] = std::from_chars(name.data(), name.data() + name.size(), place);
+    if (!list || wrong != std::errc{} || end != name.data() + name.size() || place >= list->size()) return nullptr;
+    return &(*list)[place];
+}
+
+void put_numbers(Json& there, bool is_list, const std::vector<double>& numbers) {
+    if (std::holds_alternative<bool>(there.data)) {
+        there.data = numbers[0] != 0;
+    } else if (is_list) {
+        there.data = Json::List{};
+        for (const double number : numbers) std::get<Json::List>(there.data).push_back(Json{number});
+    } else {
+        there.data = numbers[0];
+    }
+}
+
+}  // namespace
+
+bool Document::put(std::span<const std::string> at, const std::vector<double>& numbers) {
+    Json* there = &json_;
+    for (std::size_t i = 0; there && i + 1 < at.size(); ++i) there = member(*there, at[i]);
+    if (!there || at.empty() || numbers.empty()) return false;
+    Json* last = member(*there, at.back());
+    auto* object = std::get_if<Json::Object>(&there->data);
+    if (!last && !object) return false;
+    const bool is_list =
+        numbers.size() > 1 || at.back() == "weights" || (last && std::holds_alternative<Json::List>(last->data));
+    put_numbers(last ? *last : (*object)[at.back()], is_list, numbers);
+    return true;
 }
 
 void Document::warn_of_unread() const {

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <string_view>
 
 #include "core/readers/common/assets.hpp"
+#include "core/readers/gltf/animations.hpp"
 #include "core/readers/gltf/nodes.hpp"
 
 namespace lightnet::gltf {
@@ -25,6 +27,7 @@ const std::set<std::string, std::less<>> known_extensions{"KHR_materials_transmi
                                                           "KHR_mesh_quantization",
                                                           "EXT_mesh_gpu_instancing",
                                                           "KHR_node_visibility",
+                                                          "KHR_animation_pointer",
                                                           "KHR_materials_anisotropy",
                                                           "KHR_materials_iridescence",
                                                           "KHR_materials_dispersion",
@@ -49,7 +52,6 @@ void check_extensions(const At& root) {
     for (std::size_t i = 0; i < used.size(); ++i)
         if (const auto name = used[i].text(""); !known_extensions.contains(name) && !required.contains(name))
             root.warn(fmt::format("extension '{}' is left out", name.substr(0, 64)));
-    if (root["animations"].size()) root.warn("animations are left out: everything stands as at first");
 }
 
 void check_occlusion(const At& root) {
@@ -59,26 +61,43 @@ void check_occlusion(const At& root) {
             root.warn("occlusion maps are left out: light finds by itself where it is dark");
 }
 
-/// The one variable of a file is which of its variants is shown.
-std::string variant_in(const SceneConstants& constants, const std::string& path) {
+/// What is wanted of a file.
+struct Wanted {
     std::string variant;
+    Moment moment;
+};
+
+/// The one variable of a file is which of its variants is shown.
+Wanted wanted_in(const SceneConstants& constants, const std::string& path) {
+    Wanted wanted;
     for (const auto& [name, value] : constants)
         if (name == "variant")
-            variant = value;
+            wanted.variant = value;
+        else if (name == animation_constant)
+            wanted.moment.animation = value;
+        else if (name == time_constant)
+            wanted.moment.seconds = std::strtod(value.c_str(), nullptr);  // a number, as a graph has it
         else
             throw UserError({path, 0}, "glTF has no variables but 'variant': there is no '" + name + "' to define");
-    return variant;
+    return wanted;
 }
 
 SceneData read(Files& files, const std::string& path, const SceneConstants& constants) {
-    const std::string variant = variant_in(constants, path);
-    return read_by_assets(files, path, [&](Assets& assets) {
+    const auto [variant, moment] = wanted_in(constants, path);
+    return read_by_assets(files, path, [&, &variant = variant, &moment = moment](Assets& assets) {
         Report& report = assets.report();
         SceneData& scene = assets.scene();
         Document document(assets, path);
         check_extensions(document.root());
         report.check();  // what is packed in unknown ways would only give more errors
         check_occlusion(document.root());
+        scene.animations = animations_of(document);
+        if (!scene.animations.empty() && !moment.seconds && !moment.animation)
+            report.warn({path, 0},
+                        "its animations stand still: all is as the file has it (--frames, or the scene's 'time', "
+                        "chooses another moment)");
+        // DECISIONS: still-until-asked
+        move_to(moment, document);
         add_nodes(document, assets, variant);
         document.warn_of_unread();
         if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no triangles");
@@ -92,6 +111,6 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
 
 }  // namespace
 
-SceneFormat format() { return {.endings = {".gltf", ".glb"}, .has_variables = true, .read = read}; }
+SceneFormat format() { return {.endings = {".gltf", ".glb"}, .has_variables = true, .moves = true, .read = read}; }
 
 }  // namespace lightnet::gltf

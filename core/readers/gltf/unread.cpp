@@ -16,6 +16,10 @@ constexpr std::array<std::string_view, 4> words{"name", "extras", "KHR_xmp", "KH
 constexpr std::array harmless =
     std::to_array<std::string_view>({"accessors",
                                      "animations",
+                                     "animations.channels",
+                                     "animations.samplers",
+                                     "animations.samplers.interpolation",
+                                     "animations.samplers.output",
                                      "buffers",
                                      "bufferViews",
                                      "cameras",

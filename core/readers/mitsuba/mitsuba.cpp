@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/readers/mitsuba/clipping.hpp"
 #include "core/readers/mitsuba/emitters.hpp"
 #include "core/readers/mitsuba/sensors.hpp"
@@ -81,13 +84,24 @@ private:
     std::string first_unknown_;
 };
 
-SceneData read(Files& files, const std::string& path, const SceneConstants& constants) {
+/// Takes the moment that is wanted out of what fills in the file's variables.
+std::optional<double> take_time(SceneConstants& constants, const std::string& path) {
+    if (constants.contains(std::string(animation_constant)))
+        throw UserError({path, 0}, "Mitsuba's animations have no names, so no 'animation' can be chosen");
+    const auto time = constants.extract(std::string(time_constant));
+    if (!time) return std::nullopt;
+    return std::strtod(time.mapped().c_str(), nullptr);  // a number, as a graph has it
+}
+
+SceneData read(Files& files, const std::string& path, const SceneConstants& given) {
+    SceneConstants constants = given;
+    const auto seconds = take_time(constants, path);
     return read_by_assets(files, path, [&](Assets& assets) {
         Report& report = assets.report();
         SceneData& scene = assets.scene();
         const auto document = read_document(assets, path, constants);
         report.check();
-        const Context context{assets, *document};
+        const Context context{assets, *document, seconds};
         Builder builder(context);
         for (const auto& node : document->scene.children)
             if (!report.full()) builder.add(*node);
@@ -98,6 +112,8 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
 
 }  // namespace
 
-SceneFormat format() { return {.endings = {".xml"}, .maker = "Mitsuba", .has_variables = true, .read = read}; }
+SceneFormat format() {
+    return {.endings = {".xml"}, .maker = "Mitsuba", .has_variables = true, .moves = true, .read = read};
+}
 
 }  // namespace lightnet::mitsuba

@@ -16,6 +16,7 @@ namespace lightnet::mitsuba {
 struct Context {
     Assets& assets;
     const Document& document;
+    std::optional<double> seconds{};  // the moment that is wanted of what moves; none: its beginning
 
     Report& report() const { return assets.report(); }
     void error(const Node& node, std::string what) const { report().error(node.where, std::move(what)); }

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "core/readers/common/between_transforms.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
@@ -91,13 +95,38 @@ std::optional<Matrix> statement(const Node& node, const Context& context) {
     return scaling ? diagonal(values->x, values->y, values->z) : translation(*values);
 }
 
+/// The keys of an <animation>. None: reported.
+std::vector<TransformKey> keys_of(const Node& node, const Context& context) {
+    std::vector<TransformKey> keys;
+    for (const auto& child : node.children) {
+        const auto seconds = number(child->attribute("time"), *child, context);
+        if (!seconds) return {};
+        if (!keys.empty() && !(*seconds > keys.back().seconds)) {
+            context.error(*child, "the times of an animation follow each other");
+            return {};
+        }
+        keys.push_back({*seconds, transform_of(*child, context)});
+    }
+    return keys;
+}
+
+Matrix animated(const Node& node, const Context& context) {
+    const auto keys = keys_of(node, context);
+    if (keys.empty()) return {};
+    auto& known = context.assets.scene().animations;
+    if (known.empty()) known.emplace_back();
+    known.front().seconds = std::max(known.front().seconds, keys.back().seconds);
+    if (context.seconds) return transform_at(keys, *context.seconds);
+    context.warn(node,
+                 "animated transforms are taken as they stand at first (--frames, or the scene's 'time', chooses "
+                 "another moment)");
+    return keys.front().transform;
+}
+
 }  // namespace
 
 Matrix transform_of(const Node& node, const Context& context) {
-    if (node.tag == "animation") {
-        context.warn(node, "animated transforms are taken as they stand at first");
-        return node.children.empty() ? Matrix{} : transform_of(*node.children[0], context);
-    }
+    if (node.tag == "animation") return animated(node, context);
     Matrix whole;
     for (const auto& child : node.children) {
         const auto& tag = child->tag;

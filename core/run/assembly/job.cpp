@@ -58,6 +58,14 @@ JobFile file_of(const Json& json) {
     return {text_from_json(json.at("path")), *hash, count_of<std::uint64_t>(json, "size")};
 }
 
+SceneOptions scene_options(const Job& job) {
+    SceneOptions options;
+    options.isa = job.isa;
+    options.width = job.width;
+    options.height = job.height;
+    return options;
+}
+
 std::shared_ptr<const Network> network_around(const Job& job, const Registry& registry,
                                               std::shared_ptr<const Scene> scene, KeptResults kept,
                                               std::function<Bytes(const Hash&)> results) {
@@ -121,12 +129,10 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
 
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, LoadedScene scene,
                                              std::function<Bytes(const Hash&)> results) {
-    SceneOptions options;
-    options.isa = job.isa;
-    options.width = job.width;
-    options.height = job.height;
+    if (scene.built)
+        return network_around(job, registry, std::move(scene.built), std::move(scene.kept), std::move(results));
     try {
-        auto built = std::make_shared<const Scene>(std::move(scene.data), options);
+        auto built = std::make_shared<const Scene>(std::move(scene.data), scene_options(job));
         return network_around(job, registry, std::move(built), std::move(scene.kept), std::move(results));
     } catch (const std::bad_alloc&) {
         throw Error(job.scene, "is too large for the memory of this machine, with what finds its surfaces");
@@ -144,7 +150,22 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
 
 SceneSource scene_source(const Job& job, const Registry& registry) {
     const Node& node = scene_of(job.graph, registry);
-    return {job.graph.file, job.scene, job.files, node.entries, node.params, job.isa, job.width, job.height};
+    SceneSource source{job.graph.file, job.scene, job.files, node.entries, node.params, {},
+                       job.isa,        job.width, job.height};
+    for (const char* name : {"camera", "seen_by", "exposure"})
+        if (auto param = source.params.extract(name)) source.sight.insert(std::move(param));
+    return source;
+}
+
+bool SceneSource::is_but_for_sight(const SceneSource& other) const {
+    SceneSource same = *this;
+    same.sight = other.sight;
+    return same == other;
+}
+
+std::shared_ptr<const Scene> seen_by(const Job& job, const Registry& registry, const Scene& built) {
+    const auto onlooker = another_look(job.graph, registry, built.data());
+    return onlooker ? std::make_shared<const Scene>(built, *onlooker, scene_options(job)) : nullptr;
 }
 
 std::string made_from(const Job& job) {

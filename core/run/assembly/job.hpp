@@ -54,19 +54,22 @@ Job read_job(std::string_view text, const Registry& registry);
 /// Reads the scene, changes what the graph overrides, and builds everything that the places of a process share.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, Files& files,
                                              std::function<Bytes(const Hash&)> results = {});
-/// Builds what the places of a process share from a scene that has been loaded.
+/// Builds what the places of a process share from a scene that has been loaded, or around the one that it brings built.
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry, LoadedScene scene,
                                              std::function<Bytes(const Hash&)> results = {});
 
 /// What the scene of a job is built from: where this is the same, so is the scene.
 struct SceneSource {
-    std::string graph, scene;    // paths of their files
-    std::vector<JobFile> files;  // by their content
-    std::vector<Value> entries;  // of the Scene node
-    std::map<std::string, Value> params;
+    std::string graph, scene;             // paths of their files
+    std::vector<JobFile> files;           // by their content
+    std::vector<Value> entries;           // of the Scene node
+    std::map<std::string, Value> params;  // of the scene itself
+    std::map<std::string, Value> sight;   // of who looks at it
     std::string isa;
     std::uint32_t width = 0, height = 0;
     friend bool operator==(const SceneSource&, const SceneSource&) = default;
+    /// Is it the same, whoever looks at it?
+    bool is_but_for_sight(const SceneSource& other) const;
 };
 SceneSource scene_source(const Job& job, const Registry& registry);
 /// A network around a scene that was built for a job with the same source. Its nodes must not go on from kept results,
@@ -74,6 +77,10 @@ SceneSource scene_source(const Job& job, const Registry& registry);
 std::shared_ptr<const Network> build_network(const Job& job, const Registry& registry,
                                              std::shared_ptr<const Scene> built,
                                              std::function<Bytes(const Hash&)> results);
+
+/// A scene that was built for a job with the same source but for the camera, as this job looks at it; it shares all
+/// else. Null: it can't be, as more hangs on the camera. Throws UserError when that camera can't be.
+std::shared_ptr<const Scene> seen_by(const Job& job, const Registry& registry, const Scene& built);
 
 /// All that what is prepared may depend on, beside the graph: see Recipes.
 std::string made_from(const Job& job);

@@ -88,11 +88,21 @@ std::map<std::string, std::string> scene_constants(const Node& scene) {
     // to the reader it is one more variable of the file
     if (variant != scene.params.end())
         if (const auto* name = std::get_if<std::string>(&variant->second.data)) constants["variant"] = *name;
+    if (const auto animation = scene.params.find("animation"); animation != scene.params.end())
+        if (const auto* name = std::get_if<std::string>(&animation->second.data))
+            constants[std::string(animation_constant)] = *name;
+    if (const auto time = scene.params.find("time"); time != scene.params.end())
+        if (std::holds_alternative<double>(time->second.data))
+            constants[std::string(time_constant)] = to_string(time->second);
     return constants;
 }
 
 std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry) {
     return scene_constants(scene_of(graph, registry));
+}
+
+std::optional<Onlooker> another_look(const Graph& graph, const Registry& registry, const SceneData& changed) {
+    return look_again(scene_overrides(graph, registry), changed, scene_of(graph, registry).where);
 }
 
 void find_mistakes(const Graph& graph, const Registry& registry, const SceneData& scene,

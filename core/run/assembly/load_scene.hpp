@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "core/readers/overrides.hpp"
 #include "core/run/assembly/kept.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/scene.hpp"
 
 namespace lightnet {
 
@@ -26,10 +29,15 @@ std::map<std::string, std::string> scene_constants(const Node& scene);
 struct LoadedScene {
     SceneData data;
     KeptResults kept{};
+    std::shared_ptr<const Scene> built{};  // of the data, which is empty then; null: still to be built
 };
 
 /// Changes a scene as read from its file. Throws UserError, also with what nodes of the graph find wrong with it.
 LoadedScene override_scene(const Graph& graph, const Registry& registry, Files& files, SceneData scene);
+
+/// Who looks at a scene that another graph has changed, which differs in the camera alone. None: more hangs on the
+/// camera, so the scene has to be changed from its files on. Throws UserError when that camera can't be.
+std::optional<Onlooker> another_look(const Graph& graph, const Registry& registry, const SceneData& changed);
 
 /// Appends what nodes of the graph find wrong with the scene.
 void find_mistakes(const Graph& graph, const Registry& registry, const SceneData& scene,

@@ -83,6 +83,19 @@ struct SceneCamera {
     FilmData film;
 };
 
+/// Who looks at a scene, and how its picture is taken.
+struct Onlooker {
+    CameraData camera;
+    bool given = false;  // by somebody; else it is found when the scene is built
+    FilmData film;
+};
+
+/// A motion that a file holds, for some time.
+struct SceneAnimation {
+    std::string name{};  // as in the file; may be empty
+    double seconds = 0;  // until it has come to its end
+};
+
 /// Light from infinity: `radiance` (W·sr⁻¹·m⁻²), or an image times it.
 /// A rectangle in world space through which light from infinity comes, and nowhere else: a window. Towards that light
 /// it is crossed along side × other.
@@ -193,12 +206,14 @@ struct SceneData {
     bool camera_given = false;           // else Scene looks at everything from where all of it is seen
     std::vector<SceneCamera> cameras{};  // all of the file, where it may have several; the first one is `camera`
     FilmData film;
-    std::vector<Problem> warnings;  // what was approximated or left out
+    std::vector<Problem> warnings;             // what was approximated or left out
+    Onlooker as_read{};                        // as the file has it, where a graph changes what the scene says
+    std::vector<SceneAnimation> animations{};  // that the file holds, whether or not it was read at some time of one
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
     auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, camera,
-           camera_given, cameras, film, warnings] = scene;
+           camera_given, cameras, film, warnings, as_read, animations] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights);
 }
 

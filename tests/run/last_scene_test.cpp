@@ -1,5 +1,5 @@
 // A scene that waits for the next run.
-#include "transport/daemon/last_scene.hpp"
+#include "core/run/assembly/last_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +25,33 @@ TEST(LastScene, IsThereForTheSameSourceAlone) {
     EXPECT_EQ(last.take(source_of("b")), nullptr);
     EXPECT_EQ(last.take(source_of("a")), nullptr) << "there is room for the other one now";
     EXPECT_EQ(scene.use_count(), 1);
+}
+
+TEST(LastScene, IsLookedAtOtherwiseWhereNothingElseDiffers) {
+    LastScene last;
+    auto source = source_of("a");
+    source.sight["camera"] = Value{1.0};
+    const auto scene = std::make_shared<const Scene>(SceneData{});
+    last.hold(source, scene);
+    const auto other = std::make_shared<const Scene>(SceneData{});
+    const auto look = [&](const Scene& built) {
+        EXPECT_EQ(&built, scene.get());
+        return other;
+    };
+    source.sight["camera"] = Value{2.0};
+    EXPECT_EQ(last.take(source, look), other);
+    EXPECT_EQ(last.take(source, look), other) << "the first one stays";
+    source.params["two_sided"] = Value{true};
+    EXPECT_EQ(last.take(source, look), nullptr) << "it is another scene";
+}
+
+TEST(LastScene, IsDroppedWhereMoreHangsOnTheCamera) {
+    LastScene last;
+    auto source = source_of("a");
+    last.hold(source, std::make_shared<const Scene>(SceneData{}));
+    source.sight["camera"] = Value{2.0};
+    EXPECT_EQ(last.take(source, [](const Scene&) { return nullptr; }), nullptr);
+    EXPECT_EQ(last.take(source_of("a")), nullptr);
 }
 
 TEST(LastScene, IsDroppedWhenNoRunHasNeededItForFiveMinutes) {

@@ -1,13 +1,15 @@
-#include "transport/daemon/last_scene.hpp"
+#include "core/run/assembly/last_scene.hpp"
 
 #include <utility>
 
 namespace lightnet {
 
-std::shared_ptr<const Scene> LastScene::take(const SceneSource& source) {
+std::shared_ptr<const Scene> LastScene::take(const SceneSource& source, const Look& look) {
     since_.reset();
-    if (!(source == source_)) scene_.reset();
-    return scene_;
+    if (!scene_ || source == source_) return scene_;
+    auto other = look && source.is_but_for_sight(source_) ? look(*scene_) : nullptr;
+    if (!other) scene_.reset();
+    return other;
 }
 
 void LastScene::hold(SceneSource source, std::shared_ptr<const Scene> scene) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -17,8 +18,11 @@ public:
     using Time = std::chrono::steady_clock::time_point;
     static constexpr auto stays = std::chrono::minutes(5);
 
-    /// The scene, if it was built from that; else it is dropped, as two may not fit into memory.
-    std::shared_ptr<const Scene> take(const SceneSource& source);
+    /// The scene looked at otherwise; null: it has to be built anew.
+    using Look = std::function<std::shared_ptr<const Scene>(const Scene&)>;
+    /// The scene, if it was built from that, or, by `look`, from that but for the camera; else it is dropped, as two
+    /// may not fit into memory.
+    std::shared_ptr<const Scene> take(const SceneSource& source, const Look& look = {});
     void hold(SceneSource source, std::shared_ptr<const Scene> scene);
     /// No run needs it now. To be called again and again: what is held too long is dropped.
     void wait(Time now);

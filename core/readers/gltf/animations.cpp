@@ -1,0 +1,215 @@
+#include "core/readers/gltf/animations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include "core/base/in_quotes.hpp"
+#include "core/base/joined.hpp"
+#include "core/base/suggestion.hpp"
+#include "core/readers/common/between_transforms.hpp"
+
+namespace lightnet::gltf {
+namespace {
+
+using Numbers = std::vector<double>;
+
+enum class Between { line, step, cubic };
+
+std::optional<Between> between_of(const At& sampler) {
+    const std::string word = sampler["interpolation"].text("LINEAR");
+    if (word == "LINEAR") return Between::line;
+    if (word == "STEP") return Between::step;
+    if (word == "CUBICSPLINE") return Between::cubic;
+    sampler["interpolation"].error("must be LINEAR, STEP or CUBICSPLINE");
+    return std::nullopt;
+}
+
+/// glTF 2.0, appendix C.4.
+Numbers turned(std::span<const float> a, std::span<const float> b, double t) {
+    const Quaternion q = slerp({a[0], a[1], a[2], a[3]}, {b[0], b[1], b[2], b[3]}, t);
+    return {q.begin(), q.end()};
+}
+
+/// The keys of a channel.
+class Keys {
+public:
+    Keys(Values times, Values values, Between between)
+        : times_(std::move(times.numbers)),
+          values_(std::move(values.numbers)),
+          between_(between),
+          width_(values_.size() / (times_.size() * parts())) {}
+
+    /// Something in its numbers does not fit; "": all does.
+    static std::string fault(const Values& times, const Values& values, Between between) {
+        const std::size_t parts = between == Between::cubic ? 3 : 1;
+        if (times.width != 1 || times.numbers.empty()) return "has no keys";
+        if (values.numbers.empty() || values.numbers.size() % (times.numbers.size() * parts) != 0)
+            return "must have as many values as keys";
+        if (std::ranges::adjacent_find(times.numbers, std::greater_equal{}) != times.numbers.end())
+            return "has keys that don't follow each other in time";
+        return "";
+    }
+
+    std::size_t width() const { return width_; }
+
+    Numbers at(double seconds, bool turns) const {
+        const auto behind = std::ranges::upper_bound(times_, seconds, {}, [](float time) { return double(time); });
+        const auto next = static_cast<std::size_t>(behind - times_.begin());
+        if (next == 0 || next == times_.size()) return copy(value(next ? next - 1 : 0));
+        const std::size_t last = next - 1;
+        if (between_ == Between::step) return copy(value(last));
+        const double step = double(times_[next]) - double(times_[last]);
+        const double t = (seconds - double(times_[last])) / step;
+        if (between_ == Between::cubic) return cubic(last, t, step);
+        if (turns && width_ == 4) return turned(value(last), value(next), t);
+        Numbers mean(width_);
+        for (std::size_t i = 0; i < width_; ++i)
+            mean[i] = double(value(last)[i]) * (1 - t) + double(value(next)[i]) * t;
+        return mean;
+    }
+
+private:
+    std::size_t parts() const { return between_ == Between::cubic ? 3 : 1; }
+    std::span<const float> part(std::size_t key, std::size_t which) const {
+        return std::span(values_).subspan((key * parts() + which) * width_, width_);
+    }
+    std::span<const float> value(std::size_t key) const { return part(key, between_ == Between::cubic ? 1 : 0); }
+    static Numbers copy(std::span<const float> values) { return {values.begin(), values.end()}; }
+
+    /// glTF 2.0, appendix C.5: of each key the tangent before it, its value, and the tangent behind it.
+    Numbers cubic(std::size_t last, double t, double step) const {
+        const double t2 = t * t, t3 = t2 * t;
+        Numbers sum(width_);
+        for (std::size_t i = 0; i < width_; ++i)
+            sum[i] = (2 * t3 - 3 * t2 + 1) * double(part(last, 1)[i]) +
+                     step * (t3 - 2 * t2 + t) * double(part(last, 2)[i]) +
+                     (3 * t2 - 2 * t3) * double(part(last + 1, 1)[i]) + step * (t3 - t2) * double(part(last + 1, 0)[i]);
+        return sum;
+    }
+
+    std::vector<float> times_, values_;
+    Between between_;
+    std::size_t width_;  // numbers of a value
+};
+
+/// What a channel moves: names and numbers of members, from the root on. Empty: nothing that is known.
+std::vector<std::string> target_of(const At& target, std::size_t nodes) {
+    const std::string path = target["path"].text("");
+    if (path != "pointer") {
+        static const std::set<std::string, std::less<>> known{"translation", "rotation", "scale", "weights"};
+        if (!target["node"]) return {};
+        if (!known.contains(path)) {
+            target["path"].error("must be translation, rotation, scale, weights or pointer");
+            return {};
+        }
+        const auto node = target["node"].index(nodes);
+        return node ? std::vector<std::string>{"nodes", std::to_string(*node), path} : std::vector<std::string>{};
+    }
+    const std::string pointer = target["extensions"]["KHR_animation_pointer"]["pointer"].text("");
+    std::vector<std::string> words;
+    for (const char c : pointer)
+        if (c == '/')
+            words.emplace_back();
+        else if (!words.empty())
+            words.back() += c;
+    static const std::set<std::string, std::less<>> may_move{"nodes", "meshes", "cameras", "materials", "extensions"};
+    if (words.size() >= 2 && may_move.contains(words.front())) return words;
+    target.warn(fmt::format("what is animated at '{}' stands still", pointer.substr(0, 256)));
+    return {};
+}
+
+class Mover {
+public:
+    Mover(const At& animation, double seconds, Document& document)
+        : animation_(animation), seconds_(seconds), document_(document) {}
+
+    void move() {
+        const At channels = animation_["channels"];
+        for (std::size_t i = 0; i < channels.size(); ++i) move(channels[i]);
+    }
+
+private:
+    void move(const At& channel) {
+        const At nodes = document_.root()["nodes"], samplers = animation_["samplers"];
+        const auto target = target_of(channel["target"], nodes.size());
+        const auto sampler = channel["sampler"].index(samplers.size());
+        if (target.empty() || !sampler) return;
+        const bool of_parts = target.size() == 3 && target[0] == "nodes" && target[2] != "weights";
+        if (of_parts && nodes[std::stoul(target[1])]["matrix"])
+            return channel.warn("a node with a 'matrix' is animated: it stands still");
+        const auto keys = keys_of(samplers[*sampler]);
+        if (!keys) return;
+        const std::size_t wanted = !of_parts ? keys->width() : target[2] == "rotation" ? 4 : 3;
+        if (keys->width() != wanted) return samplers[*sampler]["output"].error("has not as many numbers as it moves");
+        if (!document_.put(target, keys->at(seconds_, target.back() == "rotation")))
+            channel["target"].warn("what is animated is not there");
+    }
+
+    std::optional<Keys> keys_of(const At& sampler) {
+        const auto between = between_of(sampler);
+        auto times = document_.values(sampler["input"]), values = document_.values(sampler["output"]);
+        if (!between || !times || !values) return std::nullopt;
+        if (const auto fault = Keys::fault(*times, *values, *between); !fault.empty()) {
+            sampler.error(fault);
+            return std::nullopt;
+        }
+        return Keys(*std::move(times), *std::move(values), *between);
+    }
+
+    At animation_;
+    double seconds_;
+    Document& document_;
+};
+
+At chosen(const std::string& name, const Document& document) {
+    const At all = document.root()["animations"];
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        names.push_back(all[i]["name"].text(""));
+        if (names.back() == name) return all[i];
+    }
+    const auto guess = did_you_mean(name, names);
+    throw UserError({document.path(), 0}, "there is no animation " + in_quotes(name) +
+                                              (names.empty()   ? ": the file has none"
+                                               : guess.empty() ? " (there is: " + joined(names) + ")"
+                                                               : guess));
+}
+
+/// An accessor says it itself, as it has to.
+double last_key(const At& input, Document& document) {
+    const At accessors = document.root()["accessors"];
+    const auto index = input.index(accessors.size());
+    if (!index) return 0;
+    if (const At most = accessors[*index]["max"][0]) return most.number(0);
+    const auto times = document.values(input);
+    return times && !times->numbers.empty() ? double(times->numbers.back()) : 0;
+}
+
+}  // namespace
+
+std::vector<SceneAnimation> animations_of(Document& document) {
+    const At all = document.root()["animations"], accessors = document.root()["accessors"];
+    std::vector<SceneAnimation> found;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        SceneAnimation animation{all[i]["name"].text(""), 0};
+        const At samplers = all[i]["samplers"];
+        for (std::size_t j = 0; j < samplers.size(); ++j)
+            animation.seconds = std::max(animation.seconds, last_key(samplers[j]["input"], document));
+        found.push_back(std::move(animation));
+    }
+    return found;
+}
+
+void move_to(const Moment& moment, Document& document) {
+    const At all = document.root()["animations"];
+    if (!moment.animation && (!moment.seconds || all.size() == 0)) return;
+    const At animation = moment.animation ? chosen(*moment.animation, document) : all[0];
+    Mover(animation, moment.seconds.value_or(0), document).move();
+}
+
+}  // namespace lightnet::gltf

@@ -1,0 +1,139 @@
+// Sequences, as users run them: the same bytes alone and together in every mode, resumed, shared, and with a loss.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/modes/daemons.hpp"
+#include "tools/pictures/picture_lock.hpp"
+
+namespace lightnet::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Tree = nlohmann::json;
+
+class FramesRun : public ::testing::Test {
+protected:
+    struct Said {
+        int code = -1;
+        std::string text;
+    };
+    Said film(const std::string& frames, const std::string& name, const std::vector<std::string>& more = {}) const {
+        return run(graph_file("film.lua"), frames, name, more);
+    }
+    Said run(const std::string& graph, const std::string& frames, const std::string& name,
+             const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words{
+            program("lightnet"), "run", graph,        "--frames", frames,    "-o",  folder.file(name), "--size", "40x40",
+            "--samples",         "4",   "--progress", "plain",    "--cache", "none"};
+        words.insert(words.end(), more.begin(), more.end());
+        Process process(words);
+        Said said{process.wait(slowdown * std::chrono::seconds(60)), ""};
+        said.text = process.output();
+        return said;
+    }
+    std::string picture(const std::string& name) const { return bytes_of(folder / name); }
+    Tree report(const std::string& name) const { return Tree::parse(bytes_of(folder / name)); }
+
+    Folder folder;
+};
+
+TEST_F(FramesRun, GivesEachFrameTheBytesThatItHasAlone) {
+    const auto all = film("1-9x4", "all.####.exr", {"--threads", "2"});
+    ASSERT_EQ(all.code, 0) << all.text;
+    EXPECT_THAT(all.text, HasSubstr("frame 5: " + folder.file("all.0005.exr") + " is done"));
+    EXPECT_THAT(all.text, HasSubstr("3 frames in "));
+    ASSERT_EQ(film("5", "alone.####.exr", {"--threads", "1"}).code, 0);
+    EXPECT_TRUE(picture("all.0005.exr") == picture("alone.0005.exr"));
+    EXPECT_FALSE(picture("all.0005.exr") == picture("all.0009.exr")) << "the camera moves";
+    EXPECT_FALSE(std::filesystem::exists(folder / "all.0005.exr.checkpoint"));
+    const auto sequence = report("all.run.json");
+    EXPECT_EQ(sequence["format"], "lightnet sequence 1");
+    EXPECT_EQ(sequence["outcome"], "done");
+    EXPECT_EQ(sequence["frames"].size(), 3);
+    EXPECT_EQ(sequence["frames"][1]["frame"], 5);
+    EXPECT_EQ(report("all.0005.run.json")["outcome"], "done");
+    EXPECT_EQ(report("all.0005.run.json")["settings"]["frame"], "5");
+}
+
+TEST_F(FramesRun, GivesTheSameBytesOnTwoDaemonsOfWhichOneIsLost) {
+    ASSERT_EQ(film("1-3", "here.####.exr", {"--threads", "2"}).code, 0);
+    const auto there = film("1-3", "there.####.exr", {"--local-workers", "2", "--lose", "worker2@30%"});
+    ASSERT_EQ(there.code, 0) << there.text;
+    for (const char* frame : {"0001.exr", "0002.exr", "0003.exr"})
+        EXPECT_TRUE(picture(std::string("here.") + frame) == picture(std::string("there.") + frame)) << frame;
+}
+
+// Daemons count what they load: the second frame finds the scene of the first, though its camera has moved.
+TEST_F(FramesRun, SendsAndLoadsASceneOnce) {
+    Daemon daemon(folder, 1, "tcp://127.0.0.1:*", {"--log-format", "json"});
+    folder.write("hosts.lua", "place '" + daemon.endpoint + "'\n");
+    const auto said = film("1-3", "shot.####.exr", {"--hosts", folder.file("hosts.lua")});
+    ASSERT_EQ(said.code, 0) << said.text;
+    std::size_t found = 0;
+    const auto log = daemon.process->output();
+    for (auto at = log.find("has its scene from the run before"); at != log.npos; at = log.find("has its scene from the run before", at + 1))
+        ++found;
+    EXPECT_EQ(found, 2) << log;
+}
+
+TEST_F(FramesRun, GoesOnWithTheFramesThatAreMissing) {
+    ASSERT_EQ(film("1-2", "shot.####.exr").code, 0);
+    const auto first = std::filesystem::last_write_time(folder / "shot.0001.exr");
+    const auto more = film("1-3", "shot.####.exr", {"--resume"});
+    ASSERT_EQ(more.code, 0) << more.text;
+    EXPECT_THAT(more.text, HasSubstr("shot.0001.exr is there"));
+    EXPECT_THAT(more.text, HasSubstr("1 rendered, 2 were there"));
+    EXPECT_EQ(std::filesystem::last_write_time(folder / "shot.0001.exr"), first);
+    const auto other = film("1-2", "shot.####.exr", {"--resume", "--seed", "7"});
+    EXPECT_THAT(other.text, HasSubstr("2 rendered")) << "those that are there are of another seed";
+}
+
+TEST_F(FramesRun, LeavesFramesToWhoeverIsAtThem) {
+    const PictureLock lock(folder.file("shot.0001.exr"));
+    const auto said = film("1-2", "shot.####.exr");
+    ASSERT_EQ(said.code, 0) << said.text;
+    EXPECT_THAT(said.text, HasSubstr("frame 1: another run is at it"));
+    EXPECT_THAT(said.text, HasSubstr("1 rendered, 1 are left to other runs"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "shot.0001.exr"));
+    EXPECT_EQ(report("shot.run.json")["frames"][0]["outcome"], "elsewhere");
+}
+
+TEST_F(FramesRun, SaysWhatIsWrongBeforeItBegins) {
+    const auto one = film("1-3", "shot.exr");
+    EXPECT_EQ(one.code, 2);
+    EXPECT_THAT(one.text, HasSubstr("frames 1 and 2 would be the same file"));
+    EXPECT_THAT(one.text, HasSubstr("shot.####.exr"));
+    EXPECT_THAT(film("1..3", "shot.####.exr").text, HasSubstr("did you mean '1-3'?"));
+    EXPECT_THAT(film("1-3", "shot.####.exr", {"--watch"}).text, HasSubstr("a page shows one picture"));
+    EXPECT_THAT(film("1-3", "shot.####.exr", {"--trace", "t.json"}).text, HasSubstr("t.####.json"));
+    EXPECT_THAT(film("1-3", "shot.####.exr", {"-D", "frame=2"}).text, HasSubstr("--frames says which frame"));
+    folder.write("box.pbrt", "WorldBegin\nLightSource \"infinite\"\nShape \"sphere\"\n");
+    const auto graph = folder.write("late.lua",
+                                    "scene = Scene { 'box.pbrt' }\ndirect = DirectLighting { samples = 3 - frame }\n"
+                                    "image = RayTracer { direct, scene = scene, samples = 1, film = { 8, 8 } }\n");
+    const auto late = run(graph, "1-3", "late.####.exr");
+    EXPECT_EQ(late.code, 2);
+    EXPECT_THAT(late.text, HasSubstr("(at frame 3)"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "late.0001.exr")) << "all is looked at before the first frame";
+}
+
+TEST_F(FramesRun, SaysALineOfJsonOfEachFrame) {
+    const auto said = film("1-2", "shot.####.exr", {"--progress", "json"});
+    ASSERT_EQ(said.code, 0) << said.text;
+    std::istringstream lines(said.text);
+    std::vector<Tree> frames;
+    for (std::string line; std::getline(lines, line);)
+        if (const auto tree = Tree::parse(line); tree["event"] == "frame") frames.push_back(tree);
+    ASSERT_EQ(frames.size(), 2);
+    EXPECT_EQ(frames[1]["frame"], 2);
+    EXPECT_EQ(frames[1]["frames_done"], 2);
+    EXPECT_EQ(frames[1]["frames"], 2);
+    EXPECT_EQ(frames[1]["outcome"], "done");
+}
+
+}  // namespace
+}  // namespace lightnet::test

@@ -1,0 +1,58 @@
+#include "tools/session/handover.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "core/run/assembly/kept.hpp"
+
+namespace lightnet {
+namespace {
+
+// Those that ask for the scene as it was read.
+bool asks_for_all(const Graph& graph, const Registry& registry) {
+    return goes_on_from_kept(graph, registry) || !files_to_keep(graph, registry).empty();
+}
+
+void expect_sound(const Job& job, const Registry& registry, const SceneData& scene) {
+    std::vector<Problem> problems;
+    find_mistakes(job.graph, registry, scene, problems);
+    if (!problems.empty()) throw UserError(std::move(problems));
+}
+
+}  // namespace
+
+void Handover::hold(const Job& job, const Registry& registry, std::shared_ptr<ReadScene> read) {
+    drop();
+    source_ = scene_source(job, registry);
+    read_ = std::move(read);
+}
+
+std::optional<LoadedScene> Handover::take(const Job& job, const Registry& registry) {
+    if (!source_ || (!built_ && !data_)) return std::nullopt;
+    auto source = scene_source(job, registry);
+    const bool same = source == *source_;
+    LoadedScene scene;
+    if (!source.is_but_for_sight(*source_) || asks_for_all(job.graph, registry)) return drop(), std::nullopt;
+    expect_sound(job, registry, built_ ? built_->data() : *data_);
+    if (built_) {
+        scene.built = same ? built_ : seen_by(job, registry, *built_);
+        if (!scene.built) return drop(), std::nullopt;
+    } else {
+        if (const auto onlooker = same ? std::nullopt : another_look(job.graph, registry, *data_))
+            data_->camera = onlooker->camera, data_->camera_given = true, data_->film = onlooker->film;
+        else if (!same)
+            return drop(), std::nullopt;
+        scene.data = *std::exchange(data_, std::nullopt);
+    }
+    source_ = std::move(source);
+    return scene;
+}
+
+void Handover::drop() {
+    source_.reset();
+    read_.reset();
+    built_.reset();
+    data_.reset();
+}
+
+}  // namespace lightnet

@@ -1,0 +1,54 @@
+// What the runs of a sequence leave for each other: whatever the next frame does not change.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "core/network/graph/kind.hpp"
+#include "core/run/assembly/job.hpp"
+#include "core/scene/scene.hpp"
+#include "tools/request/run_request.hpp"
+#include "tools/session/crew.hpp"
+
+namespace lightnet {
+
+/// Hosts stay in the crew, local workers alive with what they hold, and the scene as it was read and built. One
+/// thread's.
+class Handover {
+public:
+    /// Of the last run; empty before it.
+    std::optional<Crew>& crew() { return crew_; }
+    /// Hosts that have answered falsely.
+    std::set<std::string>& liars() { return liars_; }
+
+    /// The scene was read for that job, and is kept as long as the next ones want the same.
+    void hold(const Job& job, const Registry& registry, std::shared_ptr<ReadScene> read);
+    /// It was built; or, where nothing was built of it, this is what there is.
+    void hold(std::shared_ptr<const Scene> built) { built_ = std::move(built); }
+    void hold(SceneData data) { data_ = std::move(data); }
+
+    /// The files of the scene so far; null: none.
+    const std::shared_ptr<ReadScene>& read() const { return read_; }
+    /// The scene as another job looks at it; none: it has to be read anew, and nothing of it is held any more. Throws
+    /// UserError with what is wrong with it.
+    std::optional<LoadedScene> take(const Job& job, const Registry& registry);
+
+    /// True for what nobody has said yet.
+    bool is_new(const std::string& warning) { return said_.insert(warning).second; }
+    /// What became of the last run: its picture was there already.
+    bool was_there = false;
+
+private:
+    void drop();
+
+    std::optional<Crew> crew_;
+    std::set<std::string> liars_, said_;
+    std::optional<SceneSource> source_;
+    std::shared_ptr<ReadScene> read_;
+    std::shared_ptr<const Scene> built_;
+    std::optional<SceneData> data_;
+};
+
+}  // namespace lightnet
