@@ -61,7 +61,7 @@ public:
     /// A scene as if there were no other lamps than these. It shares all but what finds them, and what was a lamp is in
     /// the way of light as before.
     Scene(const Scene& whole, const LampView& lamps);
-    /// The same scene, looked at otherwise. It shares all but the camera.
+    /// A scene as another looks at it. It shares all but the camera.
     Scene(const Scene& whole, const Onlooker& by, const SceneOptions& options);
     ~Scene();
     Scene(const Scene&) = delete;

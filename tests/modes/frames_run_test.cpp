@@ -2,8 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <sstream>
 
 #include "tests/modes/daemons.hpp"
 #include "tools/pictures/picture_lock.hpp"
@@ -26,9 +27,21 @@ protected:
     }
     Said run(const std::string& graph, const std::string& frames, const std::string& name,
              const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words{
-            program("lightnet"), "run", graph,        "--frames", frames,    "-o",  folder.file(name), "--size", "40x40",
-            "--samples",         "4",   "--progress", "plain",    "--cache", "none"};
+        std::vector<std::string> words{program("lightnet"),
+                                       "run",
+                                       graph,
+                                       "--frames",
+                                       frames,
+                                       "-o",
+                                       folder.file(name),
+                                       "--size",
+                                       "40x40",
+                                       "--samples",
+                                       "4",
+                                       "--progress",
+                                       "plain",
+                                       "--cache",
+                                       "none"};
         words.insert(words.end(), more.begin(), more.end());
         Process process(words);
         Said said{process.wait(slowdown * std::chrono::seconds(60)), ""};
@@ -73,9 +86,12 @@ TEST_F(FramesRun, SendsAndLoadsASceneOnce) {
     folder.write("hosts.lua", "place '" + daemon.endpoint + "'\n");
     const auto said = film("1-3", "shot.####.exr", {"--hosts", folder.file("hosts.lua")});
     ASSERT_EQ(said.code, 0) << said.text;
+    daemon.process->signal(SIGTERM);
+    EXPECT_EQ(daemon.process->wait(), 0);
     std::size_t found = 0;
     const auto log = daemon.process->output();
-    for (auto at = log.find("has its scene from the run before"); at != log.npos; at = log.find("has its scene from the run before", at + 1))
+    for (auto at = log.find("has its scene from the run before"); at != log.npos;
+         at = log.find("has its scene from the run before", at + 1))
         ++found;
     EXPECT_EQ(found, 2) << log;
 }
@@ -119,6 +135,24 @@ TEST_F(FramesRun, SaysWhatIsWrongBeforeItBegins) {
     EXPECT_EQ(late.code, 2);
     EXPECT_THAT(late.text, HasSubstr("(at frame 3)"));
     EXPECT_FALSE(std::filesystem::exists(folder / "late.0001.exr")) << "all is looked at before the first frame";
+}
+
+TEST_F(FramesRun, BecomesAFilmByFfmpegOrElseNumberedPictures) {
+    ASSERT_EQ(film("1-2", "shot.####.exr").code, 0);
+    const auto made = [&](const std::string& path) {
+        Process process({"/bin/sh", "-c",
+                         "PATH='" + path + "' '" + program("lightnet") + "' film '" + folder.file("shot.####.exr") +
+                             "' --fps 12 -o '" + folder.file("film.mp4") + "'"});
+        EXPECT_EQ(process.wait(), 0) << process.output();
+        return process.output();
+    };
+    EXPECT_THAT(made("/nowhere"), HasSubstr("ffmpeg is not installed, so the film is 2 numbered pictures: "));
+    EXPECT_TRUE(std::filesystem::exists(folder / "film.0002.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4"));
+    const auto fake = folder.write("bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho \"$@\" > \"$last\"\n");
+    std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
+    EXPECT_THAT(made(folder.file("bin") + ":/usr/bin:/bin"), HasSubstr("2 frames in "));
+    EXPECT_THAT(bytes_of(folder / "film.mp4"), HasSubstr("-framerate 12 -i "));
 }
 
 TEST_F(FramesRun, SaysALineOfJsonOfEachFrame) {

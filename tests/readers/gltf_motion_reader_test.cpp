@@ -168,7 +168,7 @@ TEST(GltfMotion, SaysWhatIsWrongWithItsKeys) {
                 HasSubstr("don't follow each other"));
     Moving few;
     few.keys({0, 1}, "VEC3", {0, 0, 0});
-    EXPECT_THAT(mistake_of([&] { at(few.text, few.document(), "0"); }), HasSubstr("has not as many numbers"));
+    EXPECT_THAT(mistake_of([&] { at(few.text, few.document(), "0"); }), HasSubstr("must have as many values as keys"));
     Moving odd;
     odd.between = "BEZIER";
     odd.keys({0, 1}, "VEC3", {0, 0, 0, 2, 0, 0});

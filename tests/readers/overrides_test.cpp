@@ -71,9 +71,12 @@ TEST(SceneOverrides, LetAnotherLookAtAChangedSceneAsIfItHadBeenReadForThat) {
 }
 
 TEST(SceneOverrides, ReadASceneAnewWhereMoreHangsOnTheCamera) {
-    const auto scene = changed(SceneData{}, camera({.from = Vec3{5, 0, 0}, .to = Vec3{}}));
+    CameraOverride change;
+    change.from = Vec3{5, 0, 0}, change.to = Vec3{};
+    const auto scene = changed(SceneData{}, camera(change));
     EXPECT_FALSE(look_again({}, scene, {})) << "nobody knows who looks then";
-    auto lying = camera({.from = Vec3{5, 0, 0}, .to = Vec3{}, .up = Vec3{0, 0, 1}});
+    change.up = Vec3{0, 0, 1};
+    auto lying = camera(change);
     lying.sky.emplace();
     EXPECT_FALSE(look_again(lying, scene, {})) << "another axis is up for it, and so for the sky";
 }

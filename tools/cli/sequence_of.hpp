@@ -1,4 +1,4 @@
-// From what verbs are told of frames to a sequence.
+// Sequences of what verbs are told of frames.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What the runs of a sequence leave for each other: whatever the next frame does not change.
+// Things that the runs of a sequence leave for each other: whatever the next frame does not change.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What stands between two transforms.
+// Transforms between transforms, for what moves in files.
 #pragma once
 
 #include <array>
