@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/modes/daemons.hpp"
+#include "tests/support/schema.hpp"
 #include "tools/pictures/picture_lock.hpp"
 
 namespace lightnet::test {
@@ -167,6 +168,10 @@ TEST_F(FramesRun, SaysALineOfJsonOfEachFrame) {
     EXPECT_EQ(frames[1]["frames_done"], 2);
     EXPECT_EQ(frames[1]["frames"], 2);
     EXPECT_EQ(frames[1]["outcome"], "done");
+    if (!schemas_can_be_checked()) return;
+    EXPECT_EQ(complaints_of_schema("progress", folder.write("lines", said.text), true), "");
+    EXPECT_EQ(complaints_of_schema("sequence", folder / "shot.run.json"), "");
+    EXPECT_EQ(complaints_of_schema("run", folder / "shot.0001.run.json"), "");
 }
 
 }  // namespace

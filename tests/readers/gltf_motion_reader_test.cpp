@@ -80,6 +80,15 @@ TEST(GltfMotion, StandsStillUntilATimeIsAskedFor) {
     EXPECT_EQ(warnings_of(at(moving.text, moving.document(), "0")).find("animation"), std::string::npos);
 }
 
+TEST(GltfMotion, IsAsLongAsItsAccessorSaysOfWhichNothingElseIsRead) {
+    Moving moving;
+    moving.text.accessor<float>("SCALAR", 5126, {0, 1}, 2, R"(,"max":[2.5])");
+    moving.text.vectors("VEC3", {9, 9, 9, 9, 9, 9});
+    const auto still = moving.text.read(moving.document());
+    EXPECT_EQ(still.animations.at(0).seconds, 2.5);
+    EXPECT_EQ(warnings_of(still).find("left out"), std::string::npos) << warnings_of(still);
+}
+
 TEST(GltfMotion, TurnsEvenlyOnTheShortWay) {
     Moving moving;
     moving.path = "rotation";

@@ -50,6 +50,26 @@ TEST(Progress, CountsDownToTheEndOfTheRunWhereThatComesFirst) {
     EXPECT_EQ(progress.seconds_left(start + 21s), 0.0) << "late";
 }
 
+TEST(Progress, IsOfAllFramesOfASequence) {
+    std::ostringstream terminal, file;
+    const Progress::Series series{17, 1, 4, start};
+    Progress::Style style{ProgressMode::bar, true, false};
+    style.series = series;
+    Progress bar(10, style, terminal, start + 10s);
+    bar.phase("render", start + 10s);
+    bar.update(5, start + 15s);
+    EXPECT_THAT(terminal.str(), HasSubstr("frame 17 render [")) << terminal.str();
+    EXPECT_THAT(terminal.str(), HasSubstr(" 38 %  25 s left")) << "of one frame and a half of four, in 15 s";
+    style.mode = ProgressMode::json;
+    Progress json(10, style, file, start + 10s);
+    json.update(5, start + 15s);
+    const auto line = nlohmann::json::parse(lines_of(file.str()).back());
+    EXPECT_EQ(line["frame"], 17);
+    EXPECT_EQ(line["frames_done"], 1);
+    EXPECT_EQ(line["frames"], 4);
+    EXPECT_EQ(line["seconds_left"], 25);
+}
+
 TEST(Progress, WritesNoEscapesOffATerminal) {
     std::ostringstream file;
     Progress progress(100, {ProgressMode::automatic, false, false}, file, start);

@@ -154,7 +154,7 @@ private:
                                        seconds_since(begun_), report_.count("done"));
         if (const auto there = report_.count("there")) text += fmt::format(", {} were there", there);
         if (const auto others = report_.count("elsewhere")) text += fmt::format(", {} are left to other runs", others);
-        if (const auto waiting = report_.count("waiting"))
+        if (const auto waiting = report_.count("waiting") + report_.count("cancelled"))
             text += fmt::format(", {} are left: --resume goes on with them", waiting);
         std::cerr << text << std::endl;
         return code;
