@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "core/network/graph/kind.hpp"
 #include "core/run/assembly/job.hpp"
