@@ -187,6 +187,17 @@ TEST_F(RemoteHostTest, SpeaksOfNoKeysWhereAHostHasTakenPart) {
     }
 }
 
+TEST_F(RemoteHostTest, WaitsLongerForWhoseHeartbeatsCameLate) {
+    become_ready();
+    pass(milliseconds(1000));
+    line->say(packet::pack(Type::pong, 1, Fields{}.set("process", 5).set("run", 1).set("line", 1).set("told", 2)));
+    pass({});
+    for (int i = 0; i < 9; ++i) pass(milliseconds(400));
+    EXPECT_EQ(link->state(), State::ready) << "it is late on a machine that has much to do";
+    pass(milliseconds(400));
+    EXPECT_EQ(link->state(), State::calling) << "but not for ever";
+}
+
 TEST_F(RemoteHostTest, WaitsLongerForWhoIsBusyTakingIn) {
     line->answers_marks = false;
     become_ready();

@@ -18,7 +18,6 @@ using Clock = std::chrono::steady_clock;
 using packet::Fields;
 using packet::Type;
 
-constexpr auto launcher_lease = std::chrono::seconds(4);               // without a word, its run is over
 constexpr auto quiet_before_leaving = std::chrono::milliseconds(300);  // askers may not know yet that it leaves
 constexpr std::size_t most_told = 1000;                                // strangers, one by one
 constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
@@ -124,7 +123,7 @@ void Host::serve(const std::atomic<bool>& stop) {
         if (readable.news || (s.run && !s.run->serving())) s.advance();
         if (readable.news) s.tell_found(), s.tell_failures();
         if (s.rights.owner_is_gone(now, s.options.log)) s.drop_owner();
-        if (s.run && now - s.heard > launcher_lease) s.drop_run("its launcher is silent");
+        if (s.run && s.lease.is_over(now)) s.drop_run("its launcher is silent");
         if (!s.leaving) s.door.keep_in_touch(now);
         if (s.run) s.needed = now;
         if (!s.run) s.last_scene.wait(now);
@@ -143,7 +142,7 @@ bool Host::hangs() const { return !service_->background.done_within(goodbye_dead
 
 void Host::Service::arrived(Frames frames) {
     const auto route = text_of(frames[0]);
-    if (run && route == launcher) heard = Clock::now();
+    if (run && route == launcher) lease.heard(Clock::now());
     if (frames.size() == 2 && frames[1].size() == 0) {  // what went through the launcher may be lost
         if (gateway && route == launcher) gateway->request_resend("");
         return;
@@ -172,7 +171,7 @@ void Host::Service::arrived(Frames frames) {
         return damaged(route);
     }
     try {
-        if (run && header->run == run->id()) heard = std::chrono::steady_clock::now();
+        if (run && header->run == run->id()) lease.heard(Clock::now());
         if (piece)
             take_blob(route, header->run, *piece);
         else

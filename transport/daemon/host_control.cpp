@@ -217,7 +217,7 @@ void Host::Service::use(const Plan& plan) {
 void Host::Service::go_on(const std::string& route, const Plan& plan) {
     launcher = route;
     door.count(route, run->id());
-    heard = std::chrono::steady_clock::now();
+    lease.begin(std::chrono::steady_clock::now());
     run->expect(plan);
     peers->use(plan);
     run->expect_files_anew();

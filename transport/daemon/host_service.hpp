@@ -18,6 +18,7 @@
 #include "transport/daemon/hosted_run.hpp"
 #include "transport/daemon/peer_connections.hpp"
 #include "transport/store/blob_cache.hpp"
+#include "transport/wire/lease.hpp"
 #include "transport/wire/machine.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/zmq/gateway.hpp"
@@ -75,9 +76,10 @@ struct Host::Service {
         Counters done;
     };
     GivenUp given_up;
-    std::string who;                        // began the run
-    std::string launcher;                   // route to it
-    Time heard{};                           // from it
+    std::string who;       // began the run
+    std::string launcher;  // route to it
+    // Without a word from it for so long, its run is over.
+    Lease lease{std::chrono::milliseconds(400), std::chrono::seconds(4), std::chrono::seconds(12)};
     std::uint64_t given = 0, answered = 0;  // asks of others
     DaemonFigures figures;                  // of runs that have ended, and how many began
     Time told_figures{};

@@ -14,7 +14,7 @@ namespace {
 constexpr auto unreachable_after = std::chrono::seconds(1);  // then the launcher passes on what is for that host
 constexpr auto look_interval = std::chrono::milliseconds(200);
 constexpr auto call_interval = std::chrono::milliseconds(500);
-constexpr auto lease = std::chrono::milliseconds(2500);
+constexpr auto shortest_lease = std::chrono::milliseconds(2500), longest_lease = std::chrono::milliseconds(10000);
 // A line is quick that has carried half a MiB/s, and on which little is before a word and its answer.
 constexpr std::size_t quick_window = 256 << 10;
 constexpr auto quick_answer = std::chrono::milliseconds(300);
@@ -43,7 +43,9 @@ void PeerConnections::open(const std::string& host, Peer& to) {
     const auto parts = tcp_endpoint(host);
     if (const auto heard = heard_.find(parts ? parts->host : host); heard != heard_.end()) to.line->hear(heard->second);
     to.paced.restart();
-    to.opened = to.heard = to.called = std::chrono::steady_clock::now();
+    to.opened = to.called = std::chrono::steady_clock::now();
+    to.lease = Lease(call_interval, shortest_lease, longest_lease);
+    to.lease.begin(to.opened);
     to.calling = false;
     to.number = ++opened_;
 }
@@ -80,7 +82,7 @@ void PeerConnections::tick(Time now) {
         if (!to.line) continue;
         to.line->tick(now);
         while (auto frames = to.line->receive()) {
-            to.heard = now;
+            to.lease.heard(now);
             if (std::exchange(to.calling, false)) to.slow = now - to.called > quick_answer;
             if (auto message = to.paced.take(std::move(*frames), now, socket_of(to))) take(host, to, *message);
             to.relayed = false;
@@ -136,13 +138,13 @@ void PeerConnections::give_up(const std::string& host, Peer& to) {
 // ZeroMQ's own heartbeats are patient, as they wait behind what is under way. The line stays, and is taken again when
 // the host is heard on it or its connection is made anew.
 void PeerConnections::look_whether_silent(const std::string& host, Peer& to, Time now) {
-    if (now - std::max(to.heard, to.called) > call_interval) {
+    if (now - std::max(to.lease.last_heard(), to.called) > call_interval) {
         to.called = now;
         auto call = frames_of(packet::pack(packet::Type::mark, std::uint64_t{0}));
         to.calling = to.line->send(call);
     }
     to.slow |= to.calling && now - to.called > quick_answer;
-    if (now - to.heard > lease + to.paced.expected()) give_up(host, to);
+    if (to.lease.is_over(now, to.paced.expected())) give_up(host, to);
 }
 
 bool PeerConnections::is_quick(const Peer& to) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/network/graph/plan.hpp"
+#include "transport/wire/lease.hpp"
 #include "transport/zmq/caller.hpp"
 #include "transport/zmq/line_book.hpp"
 #include "transport/zmq/paced_line.hpp"
@@ -59,7 +60,8 @@ private:
         bool relayed = false;                // its host can't be reached from here
         std::optional<Time> unreachable{};   // since when
         PacedLine paced{};                   // [address][header][body]
-        Time heard{}, called{};              // last; asked whether it is there
+        Lease lease{{}, {}, {}};             // begins with the line
+        Time called{};                       // asked whether it is there
         bool calling = false, slow = false;  // it has not said so yet; it takes long to
         std::uint64_t number = 0;            // of this line: each has another
     };

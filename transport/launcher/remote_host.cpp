@@ -17,7 +17,7 @@ constexpr auto busy_interval = std::chrono::seconds(1);
 constexpr auto ping_interval = std::chrono::milliseconds(400);
 constexpr int abandoned_for_sure = 3;  // handshakes: a line may be cut in the middle of one
 constexpr auto renewal_interval = std::chrono::seconds(1);
-constexpr auto lease = std::chrono::milliseconds(1500);
+constexpr auto shortest_lease = std::chrono::milliseconds(1500), longest_lease = std::chrono::milliseconds(10000);
 constexpr auto longest_piece = std::chrono::seconds(15);  // for a piece of a file to be taken
 constexpr auto wanted_so = "somebody who watched the run wanted it so";
 
@@ -29,6 +29,7 @@ RemoteHost::RemoteHost(const RunOffer& offer, Counters& counters, std::string na
       offer_(offer),
       counters_(counters),
       connection_(std::move(connection)),
+      lease_(ping_interval, shortest_lease, longest_lease),
       socket_([this](Frames& frames) { return connection_->send(frames, false); }) {}
 
 bool RemoteHost::send(Type type, const Fields& fields) {
@@ -122,7 +123,7 @@ void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
 
 void RemoteHost::heartbeat(Time now) {
     const auto busy_for = std::max(line_.expected(), files_.expected());
-    if (now - heard_ > lease + busy_for) return lose(now, "it does not answer");
+    if (lease_.is_over(now, busy_for)) return lose(now, "it does not answer");
     if (now < next_ping_) return;
     next_ping_ = now + ping_interval;
     // Figures are worth less than what they cost, so every other heartbeat does without.
@@ -172,12 +173,20 @@ void RemoteHost::lose(Time now, const std::string& why) {
     connection_->renew();
 }
 
+// Who comes back after a loss was not late.
+void RemoteHost::hear(Time now) {
+    if (state_ == State::calling)
+        lease_.begin(now);
+    else
+        lease_.heard(now);
+}
+
 // What is no message, or a part of one, shows all the same that the host is alive.
 std::optional<Frames> RemoteHost::next_message(Time now) {
     now_ = now;
     while (auto frames = connection_->receive()) {
         if (auto message = line_.take(std::move(*frames), now, socket_)) return message;
-        heard_ = now;
+        hear(now);
         ++carried_;
     }
     return std::nullopt;
@@ -191,7 +200,7 @@ bool RemoteHost::receive(Time now, const Handlers& handlers) {
         return true;
     }
     if (frames->size() == 3) {
-        heard_ = now;
+        hear(now);
         const auto passing = packet::peek_header(bytes_of((*frames)[1]));
         received_ += passing && packet::is_counted(passing->type);
         handlers.relay(*this, *frames);
@@ -207,7 +216,7 @@ bool RemoteHost::receive(Time now, const Handlers& handlers) {
         damaged(now, header_bytes);
         return true;
     }
-    heard_ = now;
+    hear(now);
     if (packet::is_counted(header->type)) ++received_;
     if (header->type < Type::hello) {
         counters_.bytes += header_bytes.size() + body.size();

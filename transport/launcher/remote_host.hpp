@@ -15,6 +15,7 @@
 #include "core/run/message/message.hpp"
 #include "transport/launcher/host_connection.hpp"
 #include "transport/launcher/host_link.hpp"
+#include "transport/wire/lease.hpp"
 #include "transport/wire/line_pace.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/zmq/paced_line.hpp"
@@ -35,8 +36,8 @@ struct RunOffer {
 };
 
 /// Greets a host, sends it the job and the files that it lacks, waits until its places are ready, and keeps its lease:
-/// a host that does not answer three heartbeats in a row, or whose connection was cut, is lost, and greeted anew. A
-/// line that is busy with what was sent before gets the time for it.
+/// a host that does not answer three heartbeats in a row, or whose connection was cut, is lost, and greeted anew. One
+/// whose answers come late gets longer, and so does a line that is busy with what was sent before.
 class RemoteHost final : public HostLink {
 public:
     /// Counts what it sends and receives in `counters`, which must outlive it. `name` is that of the host in plans.
@@ -80,6 +81,7 @@ private:
     void send_blobs(Time now);
     static LinePace pace_of_files();
     bool pieces_out() const { return files_.under_way() > 0; }
+    void hear(Time now);
     void heartbeat(Time now);
     void look_at_handshake(Time now);
     void look_at_line(Time now, const ExpectedPlan& plan);
@@ -102,7 +104,8 @@ private:
     std::optional<Time> next_renewal_{};  // of the connection, which is broken
     std::optional<Time> line_ends_{};     // of the line, which is not
     std::uint64_t renewed_lines_ = 0;
-    Time heard_{}, next_call_{}, next_ping_{}, piece_taken_{};
+    Lease lease_;
+    Time next_call_{}, next_ping_{}, piece_taken_{};
     // Messages that this end and the other have counted. What lies between their counts is the same on an undamaged
     // connection at each heartbeat.
     struct Between {
