@@ -97,6 +97,29 @@ TEST(MitsubaDielectric, KnowsItsSubstances) {
     EXPECT_EQ(model_of<DielectricMaterial>(rough).roughness.means, Roughness::Means::alpha);
 }
 
+TEST(MitsubaDielectric, HasAnIndexForEachColour) {
+    const auto dispersing = [](const std::string& type, const std::string& more = "") {
+        return read_mitsuba_bsdf("<bsdf type='" + type + "'><spectrum name='int_ior' value='400:1.7, 700:1.5'/>" +
+                                 more + "<float name='ext_ior' value='1'/></bsdf>");
+    };
+    const auto solid = dispersing("dielectric");
+    const auto& glass = model_of<PrincipledMaterial>(solid);
+    EXPECT_NEAR(glass.eta, 1.6f, 0.03f);
+    EXPECT_GT(glass.dispersion, 0.03f);
+    EXPECT_LT(glass.dispersion, 0.1f);
+    EXPECT_FALSE(glass.thin);
+    EXPECT_EQ(colour_of(solid, glass.base_colour), (Rgb{1, 1, 1}));
+    EXPECT_THAT(warnings_of(solid), HasSubstr("dispersion is approximated by three indices"));
+    const auto rough = dispersing("roughdielectric", "<float name='alpha' value='0.3'/>");
+    EXPECT_EQ(model_of<PrincipledMaterial>(rough).roughness.u, 0.3f);
+    EXPECT_EQ(model_of<PrincipledMaterial>(rough).roughness.means, Roughness::Means::alpha);
+    for (const auto& scene : {dispersing("thindielectric"),
+                              dispersing("dielectric", "<rgb name='specular_transmittance' value='1, .5, .5'/>")}) {
+        EXPECT_TRUE(std::holds_alternative<DielectricMaterial>(material_of(scene).model));
+        EXPECT_THAT(warnings_of(scene), HasSubstr("dispersion is left out"));
+    }
+}
+
 TEST(MitsubaConductor, KnowsItsMetals) {
     const auto gold = read_mitsuba_bsdf("<bsdf type='conductor'><string name='material' value='Au'/></bsdf>");
     EXPECT_NEAR(colour_of(gold, model_of<ConductorMaterial>(gold).metal.eta).r, 0.143119f, 1e-5f);

@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Materials, EveryThingLeftOut,
     testing::Values(
-        LeftOut{"WorldBegin Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"", "dispersion is left out"},
+        LeftOut{"WorldBegin Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"", "approximated by three indices"},
         LeftOut{"WorldBegin Material \"thindielectric\" \"spectrum eta\" \"glass-BK7\"", "dispersion is left out"},
         LeftOut{
             "WorldBegin Material \"coateddiffuse\" \"rgb albedo\" [ .5 .5 .5 ] \"float g\" .1 \"integer nsamples\" 3",

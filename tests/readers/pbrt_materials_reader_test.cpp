@@ -83,8 +83,15 @@ TEST(PbrtMaterials, MayBeGlass) {
     EXPECT_EQ(model_of<DielectricMaterial>(pane).eta, 1.2f);
     EXPECT_TRUE(model_of<DielectricMaterial>(pane).thin);
     const auto named = with("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
-    EXPECT_NEAR(model_of<DielectricMaterial>(named).eta, 1.5185f, 1e-4f);
-    EXPECT_THAT(warnings_of(named), HasSubstr("dispersion is left out"));
+    const auto solid = model_of<PrincipledMaterial>(named);
+    EXPECT_EQ(solid.transmission, 1);
+    EXPECT_FALSE(solid.thin);
+    EXPECT_NEAR(solid.eta, 1.5185f, 2e-3f) << "in the middle";
+    EXPECT_NEAR(solid.dispersion, 0.005f, 0.002f) << "half of what its index for blue is above that for red";
+    EXPECT_THAT(warnings_of(named), HasSubstr("dispersion is approximated by three indices"));
+    const auto plate = with("Material \"thindielectric\" \"spectrum eta\" \"glass-BK7\"");
+    EXPECT_NEAR(model_of<DielectricMaterial>(plate).eta, 1.5185f, 1e-4f);
+    EXPECT_THAT(warnings_of(plate), HasSubstr("dispersion is left out"));
 }
 
 TEST(PbrtMaterials, MayBeCoated) {

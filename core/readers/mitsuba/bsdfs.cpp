@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/dispersion.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/metals.hpp"
 
@@ -153,26 +154,26 @@ Material Bsdfs::translucent(Properties& properties) {
     return {"", model};
 }
 
-DielectricMaterial Bsdfs::glass(Properties& properties, const char* inside) {
-    DielectricMaterial model;
-    model.eta = index_of(properties, "int_ior", inside) / index_of(properties, "ext_ior", "air");
-    model.reflected = textures_.maybe(properties, "specular_reflectance");
-    model.transmitted = textures_.maybe(properties, "specular_transmittance");
-    return model;
-}
-
-Material Bsdfs::dielectric(Properties& properties) { return {"", glass(properties, "bk7")}; }
-
-Material Bsdfs::thin_dielectric(Properties& properties) {
-    auto model = glass(properties, "bk7");
-    model.thin = true;
+// Tints, and what is thin, take one index.
+Material Bsdfs::glass(Properties& properties, const Roughness& roughness, bool thin) {
+    const Rgb eta = indices_of(properties, "int_ior", "bk7") / indices_of(properties, "ext_ior", "air").g;
+    const auto reflected = textures_.maybe(properties, "specular_reflectance");
+    const auto transmitted = textures_.maybe(properties, "specular_transmittance");
+    if (const auto solid = dispersing_glass(eta, roughness, context_.assets.grey(1))) {
+        const bool dispersing = !thin && !reflected && !transmitted;
+        context_.warn(*properties.find("int_ior"), std::string(dispersing ? three_indices : one_index));
+        if (dispersing) return {"", *solid};
+    }
+    DielectricMaterial model{eta.g, roughness, reflected, transmitted, thin};
     return {"", model};
 }
+
+Material Bsdfs::dielectric(Properties& properties) { return glass(properties, {}, false); }
+
+Material Bsdfs::thin_dielectric(Properties& properties) { return glass(properties, {}, true); }
 
 Material Bsdfs::rough_dielectric(Properties& properties) {
-    auto model = glass(properties, "bk7");
-    model.roughness = roughness(properties, 0.1f);
-    return {"", model};
+    return glass(properties, roughness(properties, 0.1f), false);
 }
 
 /// Without a material and an index it is copper in Mitsuba 0, and the perfect mirror since then.

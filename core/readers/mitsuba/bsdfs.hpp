@@ -55,7 +55,7 @@ private:
 
     Roughness roughness(Properties& properties, float fallback);
     ConductorMaterial metal(Properties& properties);
-    DielectricMaterial glass(Properties& properties, const char* inside);
+    Material glass(Properties& properties, const Roughness& roughness, bool thin);
     CoatedDiffuseMaterial coat(Properties& properties);
     BurleyMaterial burley(Properties& properties);
     Roughness burley_roughness(Properties& properties);

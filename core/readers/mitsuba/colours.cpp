@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/dispersion.hpp"
 #include "core/readers/common/spectra.hpp"
 
 namespace lightnet::mitsuba {
@@ -254,34 +255,38 @@ SurfaceColour surface_of(Properties& properties, std::string_view name, Rgb fall
     return colour_in<SurfaceColour>(properties, name).value_or(SurfaceColour{fallback});
 }
 
-float index_of(Properties& properties, std::string_view name, const std::string& fallback) {
+Rgb indices_of(Properties& properties, std::string_view name, const std::string& fallback) {
+    const auto alike = [](float eta) { return Rgb{eta, eta, eta}; };
     const Node* given = properties.find(name);
     const auto& context = properties.context();
     const auto named = [](std::string_view word) {
         return std::find_if(dielectrics.begin(), dielectrics.end(),
                             [&](const auto& known) { return known.name == word; });
     };
-    if (!given) return named(fallback)->value;
+    if (!given) return alike(named(fallback)->value);
     const auto word = given->attribute("value");
-    if (const auto known = named(word); known != dielectrics.end()) return known->value;
+    if (const auto known = named(word); known != dielectrics.end()) return alike(known->value);
     if (given->tag == "string") {
         std::vector<std::string> names;
         for (const auto& known : dielectrics) names.emplace_back(known.name);
         context.error(*given,
                       fmt::format("there is no dielectric '{}'{}", word.substr(0, 32), did_you_mean(word, names)));
-        return named(fallback)->value;
+        return alike(named(fallback)->value);
     }
     if (!is_colour(*given)) {
         context.warn(*given, fmt::format("the texture of '{}' of {} is left out: {} is taken", name, properties.owner(),
                                          named(fallback)->value));
-        return named(fallback)->value;
+        return alike(named(fallback)->value);
     }
-    if (const auto index = surface_of(*given, context); index && index->rgb.g > 0) {
-        if (index->rgb.r != index->rgb.g || index->rgb.g != index->rgb.b)
-            context.warn(*given, "dispersion is left out: the index of green light is taken");
-        return index->rgb.g;
-    }
-    return named(fallback)->value;
+    if (const auto index = surface_of(*given, context); index && index->rgb.g > 0) return index->rgb;
+    return alike(named(fallback)->value);
+}
+
+float index_of(Properties& properties, std::string_view name, const std::string& fallback) {
+    const Rgb index = indices_of(properties, name, fallback);
+    if (index.r != index.g || index.g != index.b)
+        properties.context().warn(*properties.find(name), std::string(one_index));
+    return index.g;
 }
 
 }  // namespace lightnet::mitsuba

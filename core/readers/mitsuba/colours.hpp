@@ -18,7 +18,9 @@ LightColour light_of(Properties& properties, std::string_view name, float fallba
 std::optional<SurfaceColour> surface_of(const Node& node, const Context& context);
 SurfaceColour surface_of(Properties& properties, std::string_view name, Rgb fallback);
 
-/// The index of refraction that `name` says: a number, or a material ("bk7", "water").
+/// The index of refraction that `name` says, for each colour: a number, a material ("bk7", "water"), or a spectrum.
+Rgb indices_of(Properties& properties, std::string_view name, const std::string& fallback);
+/// That of green light alone.
 float index_of(Properties& properties, std::string_view name, const std::string& fallback);
 
 }  // namespace lightnet::mitsuba

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/dispersion.hpp"
 #include "core/readers/common/spectra.hpp"
 
 namespace lightnet::pbrt {
@@ -47,22 +48,27 @@ Roughness roughness(Parameters& parameters, const MaterialSources& sources, cons
     return rough;
 }
 
-/// The index of refraction of a dielectric: a number, or a named glass at its green wavelength.
-float index(Parameters& parameters, const MaterialSources& sources, const std::string& name, float fallback = 1.5f) {
+/// The index of refraction of a dielectric for each colour: a number, or that of a named glass.
+Rgb indices(Parameters& parameters, const MaterialSources& sources, const std::string& name, float fallback = 1.5f) {
+    const auto alike = [](float eta) { return Rgb{eta, eta, eta}; };
     const Parameter* given = parameters.find(name);
     if (!given || given->type == Type::number) {
         const float eta = parameters.number(name, fallback);
-        if (eta > 0) return eta;
+        if (eta > 0) return alike(eta);
         parameters.error(fmt::format("'{}' must be above 0", name));
-        return fallback;
+        return alike(fallback);
     }
     const auto id = sources.textures.maybe_colour(parameters, name, Use::index);
     const auto eta = sources.textures.constant_value(*id);
     if (!eta) parameters.warn(fmt::format("'{}' can't change over the surface: {} is taken", name, fallback));
-    if (!eta || !(eta->g > 0)) return fallback;
-    if (eta->r != eta->g || eta->g != eta->b)
-        parameters.warn("dispersion is left out: the index of green light is taken");
-    return eta->g;
+    return !eta || !(eta->g > 0) ? alike(fallback) : *eta;
+}
+
+/// That of green light alone.
+float index(Parameters& parameters, const MaterialSources& sources, const std::string& name, float fallback = 1.5f) {
+    const Rgb eta = indices(parameters, sources, name, fallback);
+    if (eta.r != eta.g || eta.g != eta.b) parameters.warn(std::string(one_index));
+    return eta.g;
 }
 
 Metal metal_of(Parameters& parameters, const MaterialSources& sources, const std::string& prefix) {
@@ -102,9 +108,15 @@ Material conductor(Parameters& parameters, const MaterialSources& sources) {
 }
 
 Material dielectric(Parameters& parameters, const MaterialSources& sources) {
+    const Rgb eta = indices(parameters, sources, "eta");
+    const Roughness rough = roughness(parameters, sources);
+    if (const auto glass = dispersing_glass(eta, rough, sources.textures.constant({1, 1, 1}))) {
+        parameters.warn(std::string(three_indices));
+        return model(*glass);
+    }
     DielectricMaterial glass;
-    glass.eta = index(parameters, sources, "eta");
-    glass.roughness = roughness(parameters, sources);
+    glass.eta = eta.g;
+    glass.roughness = rough;
     return model(glass);
 }
 
