@@ -66,6 +66,17 @@ TEST(FrameQueue, WakesWhoWaits) {
     }
 }
 
+TEST(FrameQueue, HoldsNoMoreThanCreditAllows) {
+    FrameQueue queue;
+    for (int i = 0; i < high_water_mark; ++i) ASSERT_TRUE(push(queue, "a"));
+    EXPECT_FALSE(push(queue, "b")) << "somebody sends without credit";
+    Frames plan;
+    plan.emplace_back(std::string("c"));
+    EXPECT_TRUE(queue.push_always(plan)) << "of the host itself";
+    pop(queue), pop(queue);
+    EXPECT_TRUE(push(queue, "b"));
+}
+
 TEST(FrameQueue, RefusesWhatNobodyWillTakeAndLeavesItAsItWas) {
     FrameQueue queue;
     push(queue, "a");

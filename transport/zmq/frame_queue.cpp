@@ -4,11 +4,11 @@
 
 namespace lightnet {
 
-bool FrameQueue::push(Frames& frames) {
+bool FrameQueue::put(Frames& frames, std::size_t most) {
     bool asleep = false;
     {
         const std::lock_guard lock(mutex_);
-        if (closed_) return false;
+        if (closed_ || frames_.size() >= most) return false;
         frames_.push_back(std::move(frames));
         asleep = std::exchange(asleep_, false);
         woken_ |= asleep;

@@ -1,11 +1,13 @@
 // Messages on their way from one thread of this process to another.
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <mutex>
 #include <optional>
 
 #include "transport/places/wakeup.hpp"
+#include "transport/zmq/high_water.hpp"
 #include "transport/zmq/message_frame.hpp"
 
 namespace lightnet {
@@ -15,8 +17,11 @@ namespace lightnet {
 /// DECISIONS: queues-in-memory
 class FrameQueue {
 public:
-    /// False, and the frames are as they were: nobody takes any more.
-    bool push(Frames& frames);
+    /// False, and the frames are as they were: nobody takes any more, or so many wait that whoever sends them keeps no
+    /// rule.
+    bool push(Frames& frames) { return put(frames, std::size_t{high_water_mark}); }
+    /// However many wait. False: nobody takes any more.
+    bool push_always(Frames& frames) { return put(frames, ~std::size_t{0}); }
     /// The oldest; none: there is nothing.
     std::optional<Frames> pop();
     /// From now on a push makes handle() readable. False: there is something already, and nothing to wait for. For the
@@ -28,6 +33,8 @@ public:
     void close();
 
 private:
+    bool put(Frames& frames, std::size_t most);
+
     std::mutex mutex_;
     std::deque<Frames> frames_;
     bool asleep_ = false, woken_ = false, closed_ = false;

@@ -9,6 +9,7 @@
 
 #include "transport/address/resolver.hpp"
 #include "transport/keys/key.hpp"
+#include "transport/zmq/high_water.hpp"
 #include "transport/zmq/message_frame.hpp"
 
 namespace zmq {
@@ -130,12 +131,5 @@ Socket asking_socket(const SocketContext& context, const std::string& endpoint,
 /// An asking_socket() that the caller connects, who may look after it before.
 Socket unconnected_asking_socket(const SocketContext& context, const std::string& endpoint,
                                  const std::optional<LineKeys>& keys);
-
-/// Sizes that were agreed on (flow control by credit) never fill a queue of this many messages; if one is full,
-/// something is wrong, and counted.
-inline constexpr int high_water_mark = 4096;
-/// May a socket that connects have refused because its queue is full, with so many messages on their way? If not, its
-/// peer is gone for the moment; it does not tell which.
-inline bool may_be_full(std::size_t under_way) { return under_way >= std::size_t{high_water_mark} / 2; }
 
 }  // namespace lightnet

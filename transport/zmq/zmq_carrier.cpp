@@ -181,7 +181,7 @@ struct ZmqCarrier::Sockets {
             return message;
         }
         for (std::size_t i = hops; i < frames.size(); ++i) frames[i] = MessageFrame();  // the asker must send it again
-        me.queues.replies->push(frames);
+        me.queues.replies->push_always(frames);
         return std::nullopt;
     }
 
@@ -196,7 +196,7 @@ struct ZmqCarrier::Sockets {
             counters.bytes += packet.header.size() + packet.body.size();
             append(frames, std::move(packet));
         }
-        me.queues.replies->push(frames);
+        me.queues.replies->push_always(frames);
     }
 
     std::optional<Message> from_answerer(const std::string& endpoint, Frames frames) {

@@ -39,7 +39,7 @@ FrameQueue* ZmqPlaceTransport::queue_to(std::uint32_t place) {
 
 void ZmqPlaceTransport::tell(std::uint32_t place, Message message) {
     auto frames = frames_of(std::move(message));
-    forward(place, frames);
+    if (auto* const queue = queue_to(place)) queue->push_always(frames);
 }
 
 bool ZmqPlaceTransport::forward(std::uint32_t place, Frames& frames) {
