@@ -29,10 +29,7 @@ Rgb of_vector(Vec3 v) { return {v.x, v.y, v.z}; }
 class SurfaceFact final : public LightOp {
 public:
     explicit SurfaceFact(const NodeContext& here)
-        : scene_(here.scene()),
-          eye_(here.scene().seen_from()),
-          key_(here.key()),
-          fact_(fact_called(here.text("of"))) {}
+        : scene_(here.scene()), eye_(here.scene().seen_from()), key_(here.key()), fact_(fact_called(here.text("of"))) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         for (std::size_t i = 0; i < questions.size(); ++i)

@@ -27,9 +27,11 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 using Use = void (*)(SceneData);
 
-void attempt(const std::string& name, const std::string& text, test::MemoryFiles files, Use use) {
+void attempt(const std::string& name, const std::string& text, test::MemoryFiles files, Use use,
+             const SceneConstants& constants = {}) {
     try {
-        use(test::read_as(name, text, std::move(files)));
+        files.add(name, text);
+        use(read_scene(files, name, constants));
     } catch (const UserError&) {
     } catch (const Error&) {
     }
@@ -70,8 +72,23 @@ std::vector<std::string> mitsuba_seeds() {
 template <Use use>
 void read_gltf(std::span<const std::byte> bytes) {
     const std::string text = text_of(bytes);
-    attempt(text.starts_with("glTF") ? "scene.glb" : "scene.gltf", text,
-            {{"p.hdr", dot}, {"b.bin", std::string(80, '\1')}}, use);
+    attempt(
+        text.starts_with("glTF") ? "scene.glb" : "scene.gltf", text, {{"p.hdr", dot}, {"b.bin", std::string(80, '\1')}},
+        use,
+        text.find("animations") == text.npos ? SceneConstants{} : SceneConstants{{std::string(time_constant), "0.3"}});
+}
+
+/// Turns, morphs by a spline, and what a pointer names.
+std::string moving_seed() {
+    test::GltfText text = test::triangle_text();
+    text.vectors("SCALAR", {0, 1});
+    text.vectors("VEC4", {0, 0, 0, 1, 0, 0, 1, 0});
+    text.vectors("SCALAR", {0, 1, 0, 0, 2, 0});
+    return text.file(
+        R"("nodes":[{"mesh":0,"weights":[1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":0}]}]}],
+"materials":[{"alphaCutoff":0.5}],"animations":[{"name":"a","samplers":[{"input":1,"output":2,"interpolation":"STEP"},{"input":1,"output":3,"interpolation":"CUBICSPLINE"}],
+"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}},{"sampler":1,"target":{"node":0,"path":"weights"}},
+{"sampler":1,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/materials/0/alphaCutoff"}}}}]}],)");
 }
 
 /// Morph targets, a skin, a hidden node, variants, two sets of texture coordinates, and all that materials can be.
@@ -124,7 +141,11 @@ std::vector<std::string> gltf_seeds() {
 "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":42)";
     const std::string binary = std::string(36, '\1') + std::string("\0\1\2\0\1\2", 6);
     return {
-        posed_seed(), packed_seed(), test::glb(json + "}]}", binary), json + R"(,"uri":"b.bin"}]})",
+        posed_seed(),
+        packed_seed(),
+        moving_seed(),
+        test::glb(json + "}]}", binary),
+        json + R"(,"uri":"b.bin"}]})",
         R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,
 "byteLength":36,"byteStride":12}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})"};
 }

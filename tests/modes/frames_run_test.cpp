@@ -28,6 +28,16 @@ protected:
     }
     Said run(const std::string& graph, const std::string& frames, const std::string& name,
              const std::vector<std::string>& more = {}) const {
+        Process process(words(graph, frames, name, more));
+        return said_by(process);
+    }
+    static Said said_by(Process& process) {
+        Said said{process.wait(slowdown * std::chrono::seconds(60)), ""};
+        said.text = process.output();
+        return said;
+    }
+    std::vector<std::string> words(const std::string& graph, const std::string& frames, const std::string& name,
+                                   const std::vector<std::string>& more) const {
         std::vector<std::string> words{program("lightnet"),
                                        "run",
                                        graph,
@@ -44,10 +54,7 @@ protected:
                                        "--cache",
                                        "none"};
         words.insert(words.end(), more.begin(), more.end());
-        Process process(words);
-        Said said{process.wait(slowdown * std::chrono::seconds(60)), ""};
-        said.text = process.output();
-        return said;
+        return words;
     }
     std::string picture(const std::string& name) const { return bytes_of(folder / name); }
     Tree report(const std::string& name) const { return Tree::parse(bytes_of(folder / name)); }
@@ -117,6 +124,21 @@ TEST_F(FramesRun, LeavesFramesToWhoeverIsAtThem) {
     EXPECT_THAT(said.text, HasSubstr("1 rendered, 1 are left to other runs"));
     EXPECT_FALSE(std::filesystem::exists(folder / "shot.0001.exr"));
     EXPECT_EQ(report("shot.run.json")["frames"][0]["outcome"], "elsewhere");
+}
+
+// Each frame is locked from before one looks whether it is there until its report is.
+TEST_F(FramesRun, IsSharedByTwoLaunchersThatGoOnWithOneSequence) {
+    const auto both = words(graph_file("film.lua"), "1-6", "shot.####.exr", {"--resume", "--threads", "1"});
+    Process first(both), second(both);
+    const Said one = said_by(first), other = said_by(second);
+    EXPECT_EQ(one.code, 0) << one.text;
+    EXPECT_EQ(other.code, 0) << other.text;
+    const std::string all = one.text + other.text;
+    std::size_t rendered = 0;
+    for (auto at = all.find(" is done"); at != all.npos; at = all.find(" is done", at + 1)) ++rendered;
+    EXPECT_EQ(rendered, 6) << all;
+    for (int frame = 1; frame <= 6; ++frame)
+        EXPECT_TRUE(std::filesystem::exists(folder / ("shot.000" + std::to_string(frame) + ".exr"))) << frame;
 }
 
 TEST_F(FramesRun, SaysWhatIsWrongBeforeItBegins) {

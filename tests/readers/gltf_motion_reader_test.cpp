@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/readers/read_scene.hpp"
@@ -170,7 +171,26 @@ TEST(GltfMotion, IsOfTheAnimationThatIsNamed) {
                 HasSubstr("there is no animation 'goo' (did you mean 'go'?)"));
 }
 
+TEST(GltfMotion, LeavesWhatPointersNameInVain) {
+    for (const char* pointer : {"/nodes/abc/translation", "/nodes/9/translation", "/nodes/99999999999999999999/scale",
+                                "/materials/0/x", "/buffers/0/byteLength", "nodes", "", "/nodes//translation"}) {
+        Moving moving;
+        moving.keys({0, 1}, "VEC3", {0, 0, 0, 2, 0, 0});
+        auto document = moving.document();
+        const std::string target = R"("node":0,"path":"translation")";
+        document.replace(
+            document.find(target), target.size(),
+            R"("path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":")" + std::string(pointer) + R"("}})");
+        const auto scene = at(moving.text, document, "0.5");
+        expect_near(corner(scene), {1, 0, 0});
+        EXPECT_THAT(warnings_of(scene), HasSubstr("animated")) << pointer;
+    }
+}
+
 TEST(GltfMotion, SaysWhatIsWrongWithItsKeys) {
+    Moving endless;
+    endless.keys({0, 1}, "VEC3", {0, 0, 0, std::numeric_limits<float>::infinity(), 0, 0});
+    EXPECT_THAT(mistake_of([&] { at(endless.text, endless.document(), "0.5"); }), HasSubstr("not finite"));
     Moving backwards;
     backwards.keys({1, 0}, "VEC3", {0, 0, 0, 2, 0, 0});
     EXPECT_THAT(mistake_of([&] { at(backwards.text, backwards.document(), "0"); }),

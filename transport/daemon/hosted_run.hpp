@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/run/assembly/job.hpp"
-#include "transport/daemon/background_work.hpp"
 #include "core/run/assembly/last_scene.hpp"
+#include "transport/daemon/background_work.hpp"
 #include "transport/places/place_threads.hpp"
 #include "transport/store/blob_cache.hpp"
 #include "transport/store/cache_claim.hpp"

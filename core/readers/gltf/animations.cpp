@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <set>
 #include <span>
 #include <string_view>
+#include <system_error>
 
 #include "core/base/in_quotes.hpp"
 #include "core/base/joined.hpp"
@@ -123,6 +126,13 @@ std::vector<std::string> target_of(const At& target, std::size_t nodes) {
     return {};
 }
 
+/// Of a list; beyond its end, where a pointer gives no number.
+std::size_t place_in(const std::string& word) {
+    std::size_t place = 0;
+    const auto [end, wrong] = std::from_chars(word.data(), word.data() + word.size(), place);
+    return wrong == std::errc{} && end == word.data() + word.size() ? place : ~std::size_t{0};
+}
+
 class Mover {
 public:
     Mover(const At& animation, double seconds, Document& document)
@@ -140,14 +150,16 @@ private:
         const auto sampler = channel["sampler"].index(samplers.size());
         if (target.empty() || !sampler) return;
         const bool of_parts = target.size() == 3 && target[0] == "nodes" && target[2] != "weights";
-        if (of_parts && nodes[std::stoul(target[1])]["matrix"])
+        if (of_parts && nodes[place_in(target[1])]["matrix"])
             return channel.warn("a node with a 'matrix' is animated: it stands still");
         const auto keys = keys_of(samplers[*sampler]);
         if (!keys) return;
         const std::size_t wanted = !of_parts ? keys->width() : target[2] == "rotation" ? 4 : 3;
         if (keys->width() != wanted) return samplers[*sampler]["output"].error("has not as many numbers as it moves");
-        if (!document_.put(target, keys->at(seconds_, target.back() == "rotation")))
-            channel["target"].warn("what is animated is not there");
+        const Numbers value = keys->at(seconds_, target.back() == "rotation");
+        if (!std::ranges::all_of(value, [](double number) { return std::isfinite(number); }))
+            return samplers[*sampler].error("gives numbers that are not finite");
+        if (!document_.put(target, value)) channel["target"].warn("what is animated is not there");
     }
 
     std::optional<Keys> keys_of(const At& sampler) {

@@ -101,6 +101,10 @@ std::vector<TransformKey> keys_of(const Node& node, const Context& context) {
     for (const auto& child : node.children) {
         const auto seconds = number(child->attribute("time"), *child, context);
         if (!seconds) return {};
+        if (!std::isfinite(*seconds)) {
+            context.error(*child, "the time of a key is a number of seconds");
+            return {};
+        }
         if (!keys.empty() && !(*seconds > keys.back().seconds)) {
             context.error(*child, "the times of an animation follow each other");
             return {};
