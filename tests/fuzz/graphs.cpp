@@ -27,7 +27,9 @@ template <class Script>
 auto run(const std::string& text) {
     lua::Sandbox sandbox("graph.lua", std::size_t{4} << 20);
     lua_sethook(sandbox.state(), give_up, LUA_MASKCOUNT, 20000);
-    Script script(sandbox, {{"size", "8"}});
+    LuaOptions options;
+    options.constants = {{"size", "8"}};
+    Script script(sandbox, options);
     sandbox.run(text);
     return script.finish();
 }
