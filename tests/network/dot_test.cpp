@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
+#include "core/network/graph/check.hpp"
+#include "lua/load_graph.hpp"
+#include "nodes/standard_nodes.hpp"
 #include "tests/support/parse.hpp"
 
 namespace lightnet::dot_test {
@@ -84,6 +88,7 @@ TEST(Dot, DrawsAPlan) {
   launcher -> node_image_1 [label="Tile → Pixels\ntcp"];
   node_lighting_0 -> node_a_0 [label="Query → Rgb\ncall"];
   node_lighting_0 -> node_b_1 [label="Query → Rgb\ntcp bundles"];
+  node_a_0 -> node_a_1 [label="Query → Rgb\ntcp bundles, when busy"];
   node_image_1 -> node_lighting_0 [label="Query → 2 × Rgb\ntcp bundles"];
 }
 )dot");
@@ -114,6 +119,41 @@ TEST(Dot, ShowsThatAHostChoosesAmongItsPlaces) {
     EXPECT_THAT(dot, HasSubstr("deal_image_2 -> node_image_3 [label=\"Tile → Pixels\\ninproc\"];"));
     EXPECT_THAT(dot, HasSubstr("node_image_3 -> node_lighting_2 [label=\"Query → 2 × Rgb\\ninproc bundles\"];"));
     EXPECT_THAT(dot, Not(HasSubstr("choose_"))) << "there is but one host to ask";
+}
+
+TEST(Dot, ShowsWhoRelievesWhom) {
+    const std::string dot =
+        dot_with("place 'tcp://x:1' { a = 1, b = 1, lighting = 1, image = 1, places = 1 }\nplace 'tcp://y:1' { a = 1 }",
+                 {{"tcp://x:1", 1}, {"tcp://y:1", 1}});
+    EXPECT_THAT(dot, HasSubstr("node_lighting_0 -> node_a_0 [label=\"Query → Rgb\\ncall\"];"));
+    EXPECT_THAT(dot, HasSubstr("node_a_0 -> node_a_1 [label=\"Query → Rgb\\ntcp bundles, when busy\"];"));
+    EXPECT_THAT(dot, Not(HasSubstr("node_a_1 -> "))) << "who holds less is relieved by nobody";
+}
+
+// Every box but those of renderers, whom the launcher asks, is asked by somebody: in all layouts that we ship.
+TEST(Dot, LeavesNoReplicaWithoutAnArrow) {
+    const std::string folder = LIGHTNET_SOURCE_DIR "/graphs/paper/";
+    for (const auto& [graph, hosts] : std::vector<std::pair<std::string, std::string>>{{"figure3", "figure3"},
+                                                                                       {"figure5", "figure5"},
+                                                                                       {"figure5", "figure7"},
+                                                                                       {"figure5", "table2"},
+                                                                                       {"figure5", "table3"}}) {
+        const Hosts file = load_hosts(folder + "hosts/" + hosts + ".lua");
+        const Registry registry(standard_nodes());
+        const Graph checked = check(load_graph(folder + graph + ".lua"), registry);
+        std::vector<HostOffer> offers;
+        for (const auto& host : file.hosts)
+            if (std::none_of(offers.begin(), offers.end(),
+                             [&](const auto& one) { return one.endpoint == host.host(); }))
+                offers.push_back({host.host(), static_cast<std::uint32_t>(std::max(host.places, 1))});
+        const Plan where = plan(checked, registry, file, offers);
+        const std::string dot = to_dot(checked, registry, &where, {}, {});
+        for (std::size_t node = 0; node < checked.nodes.size(); ++node)
+            for (const auto place : where.places_of[node]) {
+                const auto box = "node_" + checked.nodes[node].name + "_" + std::to_string(place);
+                EXPECT_THAT(dot, HasSubstr("-> " + box + " [")) << hosts << ": nobody asks " << box;
+            }
+    }
 }
 
 TEST(Dot, ShowsPlacesOfThisProcessAndWhatTheyAskEachOther) {

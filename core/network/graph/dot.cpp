@@ -210,7 +210,17 @@ private:
         if (holders(host, node).size() < 2) return false;
         if (node == renderer_ && !host.empty()) return true;
         for (std::uint32_t place = 0; place < plan_.places.size(); ++place)
-            if (plan_.places[place].host != host && !holds(place, node) && asked_at(place, node)) return true;
+            if (plan_.places[place].host != host && asked_at(place, node) &&
+                (!holds(place, node) ||
+                 std::ranges::any_of(holders(host, node), [&](auto other) { return relieves(other, place); })))
+                return true;
+        return false;
+    }
+
+    // Whether a place lacks something that the other holds: then it answers some of what both could, see Place.
+    bool relieves(std::uint32_t place, std::uint32_t other) const {
+        for (std::size_t node = 0; node < graph_.nodes.size(); ++node)
+            if (holds(other, node) && !holds(place, node)) return true;
         return false;
     }
 
@@ -333,7 +343,21 @@ private:
                 draw_choices(place, sector);
             }
             draw_choices(place, input);
+            if (holds(place, input)) draw_relief(place, input);
         }
+    }
+
+    // Who takes some of what is asked of the replica of this place.
+    void draw_relief(std::uint32_t place, std::size_t node) {
+        std::set<std::pair<std::string, const char*>> others;
+        for (const auto other : plan_.places_of[node]) {
+            const auto& host = plan_.places[other].host;
+            if (other == place || !relieves(other, place)) continue;
+            const bool near = host == plan_.places[place].host, one = near || holders(host, node).size() == 1;
+            others.emplace(one ? id(node, other) : dealer_id(node, host), near ? "inproc" : "tcp");
+        }
+        for (const auto& [to, carried_by] : others)
+            edge(id(node, place), to, light(node) + "\n" + carried_by + " bundles, when busy");
     }
 
     void draw_way(std::uint32_t place, const std::string& from, std::size_t input) {
