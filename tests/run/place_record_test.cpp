@@ -11,8 +11,8 @@ namespace {
 
 PlaceRecord some_record(std::uint32_t index) {
     PlaceRecord record{"tcp://onyx:7777", index, ~std::uint64_t{0}, 2, 3, {}, {}};
-    record.nodes["a \"quoted\" node"] = {1, 2, 3, 4, 5};
-    record.edges[{"image", "light"}] = {6, 7, 8, 9};
+    record.nodes["a \"quoted\" node"] = {1, 2, 3, 4, 5, 6, 7, 8, 9, {{{80, 3}, {84, 5}}}};
+    record.edges[{"image", "light"}] = {6, 7, 8, 9, 10, 11, 12, 13, 14};
     return record;
 }
 

@@ -1,5 +1,7 @@
 #include "tools/session/run_figures.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 #include <map>
 #include <string>
@@ -26,6 +28,11 @@ void add_node(NodeSum& sum, const NodeRecord& more) {
     sum.figures.bundles += more.bundles;
     sum.figures.replies += more.replies;
     sum.figures.latency_ns += more.latency_ns;
+    sum.figures.shards = std::max(sum.figures.shards, more.shards);
+    sum.figures.shard_ns += more.shard_ns;
+    sum.figures.prepare_ns = std::max(sum.figures.prepare_ns, more.prepare_ns);
+    sum.figures.prepared = std::max(sum.figures.prepared, more.prepared);
+    sum.figures.costs.add(more.costs);
 }
 
 void fill(NodeReport& node, const NodeSum& sum) {
@@ -35,6 +42,10 @@ void fill(NodeReport& node, const NodeSum& sum) {
     node.bundles = sum.figures.bundles;
     node.seconds = in_seconds(all);
     node.own_seconds = in_seconds(all - std::min(all, sum.calling_ns));
+    node.shards = {sum.figures.shards, in_seconds(sum.figures.shard_ns), in_seconds(sum.figures.prepare_ns),
+                   sum.figures.prepared};
+    for (const auto& [step, count] : sum.figures.costs.counts)
+        node.spread.emplace_back(1e-9 * CostSpread::ns_of(step), count);
     if (sum.figures.replies) node.latency = in_seconds(sum.figures.latency_ns) / double(sum.figures.replies);
 }
 
@@ -76,6 +87,7 @@ void add_figures(RunReport& report, const std::vector<PlaceRecord>& records) {
             edge.asks += more.asks, edge.questions += more.questions;
             edge.called_ns += more.called_ns, edge.waited_ns += more.waited_ns;
             edge.bundles += more.bundles, edge.sent += more.sent, edge.bytes += more.bytes;
+            edge.learning += more.learning, edge.learning_ns += more.learning_ns;
         }
         for (auto& place : report.places)
             if (place.index == record.index &&
@@ -87,9 +99,16 @@ void add_figures(RunReport& report, const std::vector<PlaceRecord>& records) {
         nodes[ends.second].called_ns += edge.called_ns;
         nodes[ends.first].calling_ns += edge.called_ns;
         report.edges.push_back({ends.first, ends.second, edge.asks, edge.questions, in_seconds(edge.called_ns),
-                                in_seconds(edge.waited_ns), edge.bundles, edge.sent, edge.bytes});
+                                in_seconds(edge.waited_ns), edge.bundles, edge.sent, edge.bytes, edge.learning,
+                                in_seconds(edge.learning_ns)});
     }
     for (auto& node : report.nodes) fill(node, nodes[node.name]);
+}
+
+double seconds_of_this_thread() {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace lightnet

@@ -61,14 +61,18 @@ RunRecorder::RunRecorder(FilmFormat format, ProgressMode progress, std::uint32_t
 
 void RunRecorder::end_phase(Clock::time_point now) {
     end_doing(now);
-    if (phase_begun_) report_.phases.back().seconds = std::chrono::duration<double>(now - *phase_begun_).count();
+    if (phase_begun_) {
+        auto& phase = report_.phases.back();
+        phase.seconds = std::chrono::duration<double>(now - *phase_begun_).count();
+        phase.processor = seconds_of_this_thread() - phase.processor;
+    }
     phase_begun_.reset();
 }
 
 void RunRecorder::phase(const std::string& name) {
     const auto now = Clock::now();
     end_phase(now);
-    report_.phases.push_back({name, 0});
+    report_.phases.push_back({name, 0, seconds_of_this_thread()});
     phase_begun_ = now;
     progress_.phase(name, now);
     if (watcher_) watcher_->phase(name);

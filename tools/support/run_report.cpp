@@ -6,6 +6,36 @@
 #include "core/base/printable.hpp"
 
 namespace lightnet {
+namespace {
+
+JsonTree tree_of(const NodeReport& node) {
+    JsonTree tree = {{"name", node.name},
+                     {"kind", node.kind},
+                     {"questions", node.questions},
+                     {"answered", node.answered},
+                     {"bundles", node.bundles},
+                     {"seconds", node.seconds},
+                     {"own_seconds", node.own_seconds},
+                     {"latency", node.latency}};
+    if (const auto& shards = node.shards; shards.count || shards.seconds > 0 || shards.own_seconds > 0)
+        tree["preparing"] = {{"shards", shards.count},
+                             {"seconds", shards.seconds},
+                             {"own_seconds", shards.own_seconds},
+                             {"bytes", shards.bytes}};
+    if (node.spread.empty()) return tree;
+    JsonTree spread = JsonTree::list();
+    for (const auto& [seconds, count] : node.spread) {
+        JsonTree entry = JsonTree::list();
+        entry.push_back(seconds);
+        entry.push_back(count);
+        spread.push_back(std::move(entry));
+    }
+    tree["spread"] = std::move(spread);
+    return tree;
+}
+
+}  // namespace
+
 std::string to_json(const RunReport& report) {
     JsonTree places = JsonTree::list(), phases = JsonTree::list();
     for (const auto& place : report.places)
@@ -16,15 +46,7 @@ std::string to_json(const RunReport& report) {
                           {"waiting", place.waiting},
                           {"idle", place.idle}});
     JsonTree nodes = JsonTree::list(), edges = JsonTree::list();
-    for (const auto& node : report.nodes)
-        nodes.push_back({{"name", node.name},
-                         {"kind", node.kind},
-                         {"questions", node.questions},
-                         {"answered", node.answered},
-                         {"bundles", node.bundles},
-                         {"seconds", node.seconds},
-                         {"own_seconds", node.own_seconds},
-                         {"latency", node.latency}});
+    for (const auto& node : report.nodes) nodes.push_back(tree_of(node));
     for (const auto& edge : report.edges)
         edges.push_back({{"from", edge.from},
                          {"to", edge.to},
@@ -34,7 +56,9 @@ std::string to_json(const RunReport& report) {
                          {"waiting_seconds", edge.waiting_seconds},
                          {"bundles", edge.bundles},
                          {"sent", edge.sent},
-                         {"bytes", edge.bytes}});
+                         {"bytes", edge.bytes},
+                         {"learning", edge.learning},
+                         {"learning_seconds", edge.learning_seconds}});
     JsonTree layers = JsonTree::list();
     for (const auto& [name, mean, share] : report.layers)
         layers.push_back({{"name", name}, {"mean", mean}, {"share", share}});
@@ -50,7 +74,8 @@ std::string to_json(const RunReport& report) {
                          {"memory", host.memory},
                          {"places", host.places},
                          {"peak_memory", host.peak_memory}});
-    for (const auto& [name, seconds] : report.phases) phases.push_back({{"name", name}, {"seconds", seconds}});
+    for (const auto& [name, seconds, processor] : report.phases)
+        phases.push_back({{"name", name}, {"seconds", seconds}, {"processor", processor}});
 
     JsonTree preparing = JsonTree::list();
     for (const auto& [node, what, seconds] : report.preparing)

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lightnet {
@@ -21,6 +22,14 @@ struct PlaceReport {
     double idle = 0;     // of them: with no work at all
 };
 
+/// What preparing a node took. Seconds are those of threads.
+struct ShardsReport {
+    std::uint64_t count = 0;  // that all copies did together
+    double seconds = 0;       // for them, for what was done twice, and for tiles of rehearsals
+    double own_seconds = 0;   // of one copy beside them: of the one for which it was most
+    std::uint64_t bytes = 0;  // of results that one copy was given, at most
+};
+
 /// A node of the graph, all places together. Seconds are those of threads.
 struct NodeReport {
     std::string name, kind;
@@ -30,17 +39,22 @@ struct NodeReport {
     double seconds = 0;           // that it ran, with the nodes that it called
     double own_seconds = 0;       // without them
     double latency = 0;           // seconds from sending a bundle to its answer, on average
+    ShardsReport shards{};        // all 0: it does not prepare
+    std::vector<std::pair<double, std::uint64_t>> spread{};  // seconds of a question or a block of tiles, and of how
+                                                             // many; of what other places or the launcher asked
 };
 
 /// Of the graph, all places together.
 struct EdgeReport {
     std::string from, to;  // who asks whom
     std::uint64_t asks = 0, questions = 0;
-    double called_seconds = 0;   // running in calls, with what was called from there
-    double waiting_seconds = 0;  // of askers, for answers from elsewhere; their places may have done other work
-    std::uint64_t bundles = 0;   // with its questions, that went to other places; questions of others may be in them
-    std::uint64_t sent = 0;      // questions that went so
-    std::uint64_t bytes = 0;     // of them and of their answers, as they lie in memory
+    double called_seconds = 0;    // running in calls, with what was called from there
+    double waiting_seconds = 0;   // of askers, for answers from elsewhere; their places may have done other work
+    std::uint64_t bundles = 0;    // with its questions, that went to other places; questions of others may be in them
+    std::uint64_t sent = 0;       // questions that went so
+    std::uint64_t bytes = 0;      // of them and of their answers, as they lie in memory
+    std::uint64_t learning = 0;   // of the questions: that were asked for shards of preparing, or in a rehearsal ...
+    double learning_seconds = 0;  // ... and of called_seconds
 };
 
 /// A layer of the picture: what one operator adds, of one group of lamps where it keeps these apart.
@@ -64,6 +78,7 @@ struct HostReport {
 struct PhaseReport {
     std::string name;
     double seconds = 0;
+    double processor = 0;  // of them: that the launcher's own thread ran
 };
 
 /// What a node did while it prepared, as it said itself.

@@ -16,8 +16,8 @@ std::uint64_t since(std::chrono::nanoseconds begun, std::chrono::nanoseconds now
 
 class EdgeMeter::MeteredPort final : public Port {
 public:
-    MeteredPort(EdgeMeter& meter, Measured& edge, std::size_t asked, Port& port)
-        : meter_(meter), figures_(edge.record), shown_(*edge.shown), asked_(asked), port_(port) {}
+    MeteredPort(EdgeMeter& meter, Measured& edge, std::size_t asker, std::size_t asked, Port& port)
+        : meter_(meter), figures_(edge.record), shown_(*edge.shown), asker_(asker), asked_(asked), port_(port) {}
 
     Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override {
         ++figures_.asks;
@@ -28,7 +28,10 @@ public:
         const auto called_at =
             meter_.tracer_ ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{};
         const auto ticket = port_.begin(questions, answers);
-        figures_.called_ns += since(begun, meter_.running_());
+        const auto ran = since(begun, meter_.running_());
+        figures_.called_ns += ran;
+        if (meter_.learns_ && meter_.learns_(asker_))
+            figures_.learning += questions.size(), figures_.learning_ns += ran;
         if (meter_.tracer_ && !ticket) meter_.tracer_->called(asked_, called_at);
         return ticket;
     }
@@ -56,7 +59,7 @@ private:
     EdgeMeter& meter_;
     EdgeRecord& figures_;
     Gauge::Edge& shown_;
-    std::size_t asked_;
+    std::size_t asker_, asked_;
     Port& port_;
 };
 
@@ -77,7 +80,8 @@ EdgeMeter::~EdgeMeter() = default;
 Assembly::Tap EdgeMeter::tap(Assembly::Tap behind) {
     return [this, behind](std::size_t asker, std::size_t asked, std::size_t width, Port* port) -> Port* {
         if (behind) port = behind(asker, asked, width, port);
-        return ports_.emplace_back(std::make_unique<MeteredPort>(*this, measured(asker, asked), asked, *port)).get();
+        return ports_.emplace_back(std::make_unique<MeteredPort>(*this, measured(asker, asked), asker, asked, *port))
+            .get();
     };
 }
 

@@ -32,6 +32,9 @@ public:
     Assembly::Tap tap(Assembly::Tap behind = {});
     /// Is told of nodes that were called; null: nobody is.
     void trace(PlaceTracer* tracer) { tracer_ = tracer; }
+    /// Is asked whether what goes on now is done by this node while it learns; empty: nothing is.
+    using Learns = std::function<bool(std::size_t node)>;
+    void tell_learning(Learns learns) { learns_ = std::move(learns); }
     /// Writes what was measured so far.
     void write(const Graph& graph, PlaceRecord& to) const;
 
@@ -49,6 +52,7 @@ private:
     Gauge& gauge_;
     std::vector<AskingEdge> shown_;
     Running running_;
+    Learns learns_;
     PlaceTracer* tracer_ = nullptr;
     std::map<std::pair<std::size_t, std::size_t>, Measured> edges_;
     std::vector<std::unique_ptr<Port>> ports_;

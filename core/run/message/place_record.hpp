@@ -1,6 +1,8 @@
 // The record of one place in a run: per node and per edge of the graph.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -19,7 +21,23 @@ struct EdgeRecord {
     std::uint64_t bundles = 0;    // with questions of this edge, that went to other places
     std::uint64_t sent = 0;       // questions that went so
     std::uint64_t bytes = 0;      // of them and of their answers, as they lie in memory
+    std::uint64_t learning = 0;   // of `questions`: that the asker asked for shards of preparing, or in a rehearsal ...
+    std::uint64_t learning_ns = 0;  // ... and of `called_ns`
     friend bool operator==(const EdgeRecord&, const EdgeRecord&) = default;
+};
+
+/// How much pieces of work differ in what they cost: how many there were, by the time that each took, in steps of a
+/// quarter of an octave.
+struct CostSpread {
+    std::map<std::uint32_t, std::uint64_t> counts;  // by step: quarters of the logarithm of nanoseconds to base 2
+    void add(double ns, std::uint64_t pieces) {
+        if (pieces > 0) counts[static_cast<std::uint32_t>(std::lround(4 * std::log2(std::max(ns, 1.0))))] += pieces;
+    }
+    void add(const CostSpread& more) {
+        for (const auto& [step, count] : more.counts) counts[step] += count;
+    }
+    static double ns_of(std::uint32_t step) { return std::exp2(0.25 * step); }
+    friend bool operator==(const CostSpread&, const CostSpread&) = default;
 };
 
 struct NodeRecord {
@@ -28,6 +46,11 @@ struct NodeRecord {
     std::uint64_t bundles = 0;     // that this place sent to others for this node
     std::uint64_t replies = 0;     // that were answered
     std::uint64_t latency_ns = 0;  // from sending to the answer, of all of them together
+    std::uint64_t shards = 0;      // that its calls have, for all copies together
+    std::uint64_t shard_ns = 0;    // of `busy_ns`: for those that this copy did, and for tiles of rehearsals
+    std::uint64_t prepare_ns = 0;  // running in prepare(), beside the shards
+    std::uint64_t prepared = 0;    // bytes of results that this copy was given
+    CostSpread costs{};            // of questions, or of blocks of tiles, without those of rehearsals
     friend bool operator==(const NodeRecord&, const NodeRecord&) = default;
 };
 

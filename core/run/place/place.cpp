@@ -42,6 +42,11 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
           {.locks = &locks_, .concurrent = &rounds_, .whereabouts = [this] { return whereabouts(); }}, meter_.tap()),
       preparer_(network, assembly_, fibers_, {my_name(), wake(), reply(), [this] { look(); }}) {
     assembly_.show(gauge);
+    meter_.tell_learning([this](std::size_t node) {
+        if (learning_.empty()) return false;
+        const auto found = learning_.find(fibers_.current());
+        return found != learning_.end() && found->second == node;
+    });
     fibers_.show(gauge.shown(), Gauge::asking);
     const auto rank = ranks_of(network.graph);
     std::iota(by_rank_.begin(), by_rank_.end(), 0);
@@ -366,6 +371,10 @@ PlaceRecord Place::record() const {
     const auto& nodes = network_.graph.nodes;
     for (std::size_t node = 0; node < inboxes_.size(); ++node)
         if (inboxes_[node].figures.answered) record.nodes[nodes[node].name] = inboxes_[node].figures;
+    for (const auto& [node, spent] : preparer_.spent()) {
+        auto& to = record.nodes[nodes[node].name];
+        to.shards = spent.shards, to.prepare_ns = spent.ns, to.prepared = spent.bytes;
+    }
     for (std::size_t node = 0; node < gauge_.nodes.size(); ++node) {
         const auto& sent = gauge_.nodes[node];
         if (!sent.bundles.get()) continue;

@@ -111,6 +111,8 @@ private:
     bool may_start(std::size_t node) const;
     bool has_more(Role role) const;
     std::vector<Message> next_asks(std::size_t node);
+    static bool is_learning(const Message& ask);
+    static void note_cost(NodeRecord& figures, const Message& ask, std::uint64_t ns, std::size_t questions);
     void answer(std::vector<Message>& asks);
     bool answer_together(const std::vector<Message>& asks, std::vector<Message>& replies);
     void answer_alone(const Message& ask, Message& reply);
@@ -157,6 +159,7 @@ private:
     std::map<std::pair<std::size_t, std::size_t>, Remote> remotes_;  // by node and width
     RemoteChannels<Query> channels_;
     PlaceLocks locks_;
+    std::map<const Fibers::Fiber*, std::size_t> learning_;  // fibers that do shards, or rehearse: for which node
     EdgeMeter meter_;
     PlaceRecord record_;
     PlaceTracer* tracer_ = nullptr;

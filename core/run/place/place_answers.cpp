@@ -30,6 +30,19 @@ std::vector<Message> Place::next_asks(std::size_t node) {
     return asks;
 }
 
+bool Place::is_learning(const Message& ask) {
+    const auto* tiles = std::get_if<Questions<Tile>>(&ask.questions);
+    return std::holds_alternative<Questions<Step>>(ask.questions) || (tiles && (*tiles)->front().rehearses());
+}
+
+// What it tells of work of this kind, for those who plan later runs.
+void Place::note_cost(NodeRecord& figures, const Message& ask, std::uint64_t ns, std::size_t questions) {
+    if (is_learning(ask))
+        figures.shard_ns += ns;
+    else
+        figures.costs.add(static_cast<double>(ns) / static_cast<double>(questions), questions);
+}
+
 void Place::answer(std::vector<Message>& asks) {
     auto& inbox = inboxes_[asks.front().node];
     gauge_.set_activity(Gauge::at(asks.front().node));
@@ -42,15 +55,18 @@ void Place::answer(std::vector<Message>& asks) {
     std::vector<Message> replies;
     std::vector<AsksInHand::Name> names;
     for (auto& ask : asks) replies.push_back(reply_to(ask)), names.push_back(AsksInHand::name_of(ask));
+    if (is_learning(asks.front())) learning_[fiber] = asks.front().node;
     if (asks.size() == 1 || !answer_together(asks, replies))
         for (std::size_t i = 0; i < asks.size(); ++i) answer_alone(asks[i], replies[i]);
 
+    learning_.erase(fiber);
     const auto ran = fibers_.running_time(fiber);
     inbox.figures.answered += questions;
     inbox.figures.busy_ns += static_cast<std::uint64_t>(ran.count());
     const bool shards = std::holds_alternative<Questions<Step>>(asks.front().questions);
     double& each_ns = shards ? inbox.shard_ns : inbox.question_ns;
     const double ns = static_cast<double>(ran.count()) / static_cast<double>(questions);
+    note_cost(inbox.figures, asks.front(), static_cast<std::uint64_t>(ran.count()), questions);
     each_ns = each_ns > 0 ? 0.8 * each_ns + 0.2 * ns : ns;
     inbox.questions -= questions;
     inbox.answering -= questions;

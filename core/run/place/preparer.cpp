@@ -43,6 +43,7 @@ public:
         } catch (const std::exception& error) {
             failure_ = words_of(error);
         }
+        preparer_.spent_[index_].ns += static_cast<std::uint64_t>(preparer_.fibers_.running_time(fiber_).count());
         if (failure_.empty() && sectors_) say_what_it_has();
         at_ = {StepReport::Kind::done, call_, 0};
         waiting_ = true;
@@ -69,7 +70,7 @@ public:
         if (!waiting_ || at_.call != step.call || at_.kind == StepReport::Kind::done) return this->ask(std::move(ask));
         result_ = ask.data ? ask.data : preparer_.network_.results ? preparer_.network_.results(step.data) : nullptr;
         if (!result_) return fail(ask, "the result of a preparing step is not here");
-        preparer_.result_bytes_ += result_->size();
+        preparer_.spent_[index_].bytes += result_->size();
         asked_ = std::move(ask);
         waiting_ = false;
         resume_if_free();
@@ -168,6 +169,7 @@ private:
         if (cancelled_) throw Cancelled{};
         at_ = {kind, call_++, count};
         if (is_first_call(call_)) throw Error("it calls its services too often");
+        if (kind != StepReport::Kind::rehearse) preparer_.spent_[index_].shards += count;
         waiting_ = true;
         report();
         preparer_.fibers_.park();
@@ -240,6 +242,12 @@ void Preparer::take(Message ask) {
         default:
             return known->ask(std::move(ask));
     }
+}
+
+std::uint64_t Preparer::result_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& [node, spent] : spent_) bytes += spent.bytes;
+    return bytes;
 }
 
 bool Preparer::start_next() {

@@ -38,7 +38,15 @@ public:
     /// asked hands out the others again. Throws Error when the node does not wait for them.
     Bytes shards(std::size_t node, const Step& step);
     /// What all its nodes have been given so far.
-    std::uint64_t result_bytes() const { return result_bytes_; }
+    std::uint64_t result_bytes() const;
+    /// Of one node, so far.
+    struct Spent {
+        std::uint64_t shards = 0;  // that its calls have, for all copies together
+        std::uint64_t ns = 0;      // running in prepare(), beside the shards
+        std::uint64_t bytes = 0;   // of results that it was given
+    };
+    /// By node.
+    const std::map<std::size_t, Spent>& spent() const { return spent_; }
 
 private:
     class Node;
@@ -49,7 +57,7 @@ private:
     PlaceHooks place_;
     std::map<std::size_t, std::shared_ptr<Node>> nodes_;  // as they prepare for the latest pass
     std::deque<std::shared_ptr<Node>> to_start_;
-    std::uint64_t result_bytes_ = 0;
+    std::map<std::size_t, Spent> spent_;
 };
 
 }  // namespace lightnet
