@@ -63,11 +63,24 @@ void give_places_here(Hosts& hosts) {
         if (entry.is_here() && entry.places == 0) entry.places = static_cast<int>(usable_cores());
 }
 
+// A hosts file, or nothing but addresses: "tcp://a:7777,tcp://b:7777".
+Hosts named_hosts(const std::string& text) {
+    Hosts hosts;
+    for (std::size_t at = 0; at <= text.size();) {
+        const auto end = std::min(text.find(',', at), text.size());
+        const auto name = text.substr(at, end - at);
+        if (!address_of(name)) return load_hosts(text);
+        hosts.hosts.push_back({name, {}, 0, {text, 0}});
+        at = end + 1;
+    }
+    return hosts;
+}
+
 /// A graph as it was found, and what the hosts file says.
 Written with_hosts(Graph graph, std::vector<Problem> problems, const std::string& hosts) {
     Written written{std::move(graph), {}, std::move(problems)};
     try {
-        if (!hosts.empty()) written.hosts = load_hosts(hosts);
+        if (!hosts.empty()) written.hosts = named_hosts(hosts);
     } catch (const UserError& error) {
         written.problems.insert(written.problems.end(), error.problems().begin(), error.problems().end());
     }

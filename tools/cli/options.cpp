@@ -278,7 +278,19 @@ void add_output(CLI::App& verb, std::string& file, const char* help) {
 }
 
 CLI::Option* add_hosts(CLI::App& verb, std::string& file) {
-    return verb.add_option("--hosts", file, "the hosts file: where nodes run")->type_name("FILE");
+    return verb.add_option("--hosts", file, "the hosts file: where nodes run; or addresses, with commas between them")
+        ->type_name("FILE");
+}
+
+void add_layout(CLI::App& verb, RunningOptions& running) {
+    verb.add_option("--layout", running.layout,
+                    "auto: deal the nodes out to --hosts by what they cost in a rehearsal, or in an earlier run")
+        ->type_name("auto|auto=X.run.json");
+    verb.add_option("--layout-out", running.layout_out, "write the layout as a hosts file")->type_name("FILE");
+    verb.add_option("--layout-memory", running.layout_memory,
+                    "what a host may keep of what nodes prepare, for all or NAME=16G (default: four fifths of what it "
+                    "has)")
+        ->type_name("SIZE");
 }
 
 CLI::Option* add_threads(CLI::App& verb, std::optional<std::uint32_t>& threads, const char* help) {

@@ -55,6 +55,8 @@ struct PictureOptions {
 struct RunningOptions {
     PictureOptions picture;
     std::string hosts;                           // file; "": none
+    std::string layout, layout_out;              // "auto", "auto=X.run.json"; a hosts file to write. "": none
+    std::vector<std::string> layout_memory;      // "16G", "NAME=16G"
     std::optional<std::uint32_t> threads;        // places in this process; 1: serial
     std::optional<std::uint32_t> local_workers;  // daemons to start here
     FaultInjection troubles;                     // of these
@@ -96,6 +98,8 @@ CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gain
 void add_view(CLI::App& verb, PictureView& view);
 void add_output(CLI::App& verb, std::string& file, const char* help);
 CLI::Option* add_hosts(CLI::App& verb, std::string& file);
+/// --layout, --layout-out and --layout-memory.
+void add_layout(CLI::App& verb, RunningOptions& running);
 CLI::Option* add_threads(CLI::App& verb, std::optional<std::uint32_t>& threads, const char* help);
 /// All of them but --output, whose help differs.
 void add_running(CLI::App& verb, RunningOptions& running);

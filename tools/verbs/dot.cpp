@@ -7,14 +7,17 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/network/graph/dot.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
 #include "tools/cli/launcher.hpp"
+#include "tools/cli/lay_out.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
+#include "tools/forecast/forecast_hosts.hpp"
 #include "tools/pictures/node_pictures.hpp"
 #include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
@@ -27,6 +30,8 @@ struct DotOptions {
     std::string hosts;                     // file; "": none
     std::optional<std::uint32_t> threads;  // places of one process
     std::string pictures;                  // the EXR that shows what each node gives; "": none
+    std::string layout;                    // report by which the hosts are given nodes; "": none
+    std::vector<std::string> memory;       // of hosts, for that
 };
 
 void describe_dot(CLI::App& app, DotOptions& options) {
@@ -35,6 +40,13 @@ void describe_dot(CLI::App& app, DotOptions& options) {
     add_threads(app, options.threads, "show what places of one process hold")->excludes(hosts);
     app.add_option("--pictures", options.pictures, "a picture of this graph: each node shows what it gave to it")
         ->type_name("PICTURE.exr");
+    auto* const layout =
+        app.add_option("--layout", options.layout, "deal the nodes out to the hosts by what they cost in this run")
+            ->type_name("X.run.json")
+            ->needs(hosts);
+    app.add_option("--layout-memory", options.memory, "what a host may keep of what nodes prepare, or NAME=16G")
+        ->type_name("SIZE")
+        ->needs(layout);
     when_taken_apart(app,
                      [&options] { return mistaken_scene(options.graph.file, "to look at it: lightnet scene info"); });
     add_examples(app, {"lightnet dot graphs/paper/figure8.lua | dot -Tsvg > figure8.svg"});
@@ -50,10 +62,23 @@ std::vector<HostOffer> likely_offers(const DotOptions& options, const Hosts& hos
     return offers;
 }
 
+// Says why, too, as comments.
+void lay_out(const DotOptions& options, const Launcher& launcher, Loaded& loaded) {
+    std::vector<ForecastHost> hosts;
+    for (const auto& entry : loaded.hosts.hosts)
+        hosts.push_back({entry.host(), static_cast<std::uint32_t>(std::max(entry.places, 1))});
+    for (const auto& text : options.memory) limit_memory(hosts, text);
+    const auto costs = costs_for(loaded.graph, launcher.registry, options.layout);
+    const auto layout = place_nodes(costs, hosts, {});
+    loaded.hosts = hosts_of(layout.holds, costs, hosts, std::move(loaded.hosts));
+    for (const auto& reason : layout.why) launcher.out << "// " << reason << '\n';
+}
+
 int draw(const DotOptions& options, const Launcher& launcher) {
     const auto& registry = launcher.registry;
-    const Loaded loaded = validate_job(read_files(options.graph, options.hosts), {}, registry);
+    Loaded loaded = validate_job(read_files(options.graph, options.hosts), {}, registry);
     warn(loaded.warnings, launcher.err);
+    if (!options.layout.empty()) lay_out(options, launcher, loaded);
     const auto offers = likely_offers(options, loaded.hosts);
     std::map<std::string, std::string> pictures;
     if (!options.pictures.empty()) pictures = write_node_pictures(loaded.graph, registry, options.pictures);

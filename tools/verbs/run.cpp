@@ -10,6 +10,7 @@
 #include "core/network/graph/value.hpp"
 #include "tools/cli/frames.hpp"
 #include "tools/cli/launcher.hpp"
+#include "tools/cli/lay_out.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/request_of.hpp"
@@ -29,10 +30,13 @@ void describe_run(CLI::App& app, RunOptions& options) {
     add_graph(app, options.graph);
     add_frames(app, options.frames);
     add_running(app, options.running);
+    add_layout(app, options.running);
     add_output(app, options.running.picture.output, "file of the picture, instead of the graph's");
     when_taken_apart(app, [&options] {
         const auto mistake = mistaken_scene(options.graph.file, "to render it: lightnet render");
-        return mistake ? mistake : settle(options.running);
+        if (mistake) return mistake;
+        const auto layout = mistaken_layout(options.running);
+        return layout ? layout : settle(options.running);
     });
     add_examples(app, {"lightnet run graphs/cornell.lua --samples 16 -o cornell.exr",
                        "lightnet run graphs/cornell.lua --local-workers 2",
@@ -40,8 +44,9 @@ void describe_run(CLI::App& app, RunOptions& options) {
 }
 
 RunRequest request_of(const GraphOptions& graph, const RunningOptions& running, const Launcher& launcher) {
-    return request_of(running, launcher,
-                      validate_job(read_files(graph, running.hosts), running.picture, launcher.registry));
+    Loaded loaded = validate_job(read_files(graph, running.hosts), running.picture, launcher.registry);
+    if (!running.layout.empty()) loaded = laid_out(running, launcher, std::move(loaded));
+    return request_of(running, launcher, std::move(loaded));
 }
 
 // The picture of a frame that nobody has named: "shot.####.exr" of "shot.lua".
@@ -67,6 +72,10 @@ GraphOptions graph_of_frames(const RunOptions& options) {
 
 int run_graph(const RunOptions& options, const Launcher& launcher) {
     if (options.frames.numbers.empty()) return launcher.run(still_of(options, launcher));
+    if (!options.running.layout.empty())
+        throw UserError(
+            {"--layout", 0},
+            "is made of one picture; write it by --layout-out, and give that file to --hosts with --frames");
     auto graph = graph_of_frames(options);
     return run_frames(
         options.frames, options.running, launcher, [&](const GraphFrame& frame, const RunningOptions& running) {

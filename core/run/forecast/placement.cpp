@@ -1,0 +1,314 @@
+#include "core/run/forecast/placement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "core/base/error.hpp"
+#include "core/run/forecast/forecast.hpp"
+#include "core/run/forecast/place_work.hpp"
+
+namespace lightnet {
+namespace {
+
+constexpr std::size_t played = 12;        // layouts, the best by the estimate
+constexpr std::size_t few = 40;           // hosts times nodes, for which layouts are played
+constexpr std::size_t all_subsets = 6;    // nodes, of which a host may hold any
+constexpr std::size_t most_heavy = 5;     // nodes whose memory counts, of which a host may hold any
+constexpr std::size_t most_steps = 3e7;   // of all estimates: some hundredths of a second
+constexpr std::size_t most_played = 120;  // layouts, when the best is made better still
+constexpr double clearly_quicker = 0.9;   // than everything everywhere
+
+double memory_of(const RunCosts& costs, const std::vector<bool>& held) {
+    double bytes = 0;
+    for (std::size_t node = 0; node < held.size(); ++node)
+        if (held[node]) bytes += costs.nodes[node].memory;
+    return bytes;
+}
+
+/// Looks for the best layout, host by host.
+class Search {
+public:
+    Search(const RunCosts& costs, const std::vector<ForecastHost>& hosts, const LineCost& launcher)
+        : costs_(costs),
+          hosts_(hosts),
+          launcher_(launcher),
+          estimate_(costs, hosts, launcher),
+          all_(costs.nodes.size()) {
+        for (const auto node : costs.order) all_[node] = true;
+    }
+
+    NodeLayout find() {
+        const HeldByHosts everywhere(hosts_.size(), all_);
+        const bool fits =
+            std::all_of(hosts_.begin(), hosts_.end(), [&](const auto& host) { return has_room(costs_, host, all_); });
+        if (fits) consider(everywhere);
+        make_options();
+        for (auto start : {covering(true), covering(false)}) descend(std::move(start));
+        if (fits) descend(everywhere);
+        if (best_.empty()) throw Error("no layout fits: " + widest());
+        return choose(fits ? &everywhere : nullptr);
+    }
+
+private:
+    // The best layouts so far, the first one first. Returns its seconds.
+    double consider(const HeldByHosts& holds) {
+        const double seconds = estimate_.seconds(holds);
+        steps_ += estimate_.steps();
+        const auto worse =
+            std::find_if(best_.begin(), best_.end(), [&](const auto& known) { return known.seconds >= seconds; });
+        const bool known = std::any_of(best_.begin(), best_.end(), [&](const auto& one) { return one.holds == holds; });
+        if (!known && seconds < std::numeric_limits<double>::infinity()) best_.insert(worse, {holds, seconds, {}});
+        if (best_.size() > played) best_.pop_back();
+        return seconds;
+    }
+
+    // With what its nodes take the frozen state of.
+    std::vector<bool> with_taken(std::vector<bool> held) const {
+        for (auto node = costs_.order.rbegin(); node != costs_.order.rend(); ++node)
+            for (const auto& [taker, taken] : costs_.beside)
+                if (taker == *node && held[taker]) held[taken] = true;
+        return held;
+    }
+
+    // Nodes that ask nobody who is not there.
+    std::vector<bool> closed(std::vector<bool> held) const {
+        for (const auto node : costs_.order)
+            for (const auto& edge : costs_.edges)
+                if (edge.from == node && !held[edge.to]) held[node] = false;
+        return held;
+    }
+
+    void add_option(std::size_t host, const std::vector<bool>& held) {
+        const auto whole = with_taken(held);
+        if (!has_room(costs_, hosts_[host], whole)) return;
+        auto& options = options_[host];
+        if (std::find(options.begin(), options.end(), whole) == options.end()) options.push_back(whole);
+    }
+
+    // Of which nodes a host may hold any set; it may hold all others, or those that then ask nobody else, or none.
+    std::vector<std::size_t> weighed() const {
+        std::vector<std::size_t> nodes;
+        for (const auto node : costs_.order)
+            if (costs_.order.size() <= all_subsets || costs_.nodes[node].memory > 0) nodes.push_back(node);
+        const auto matters = [&](std::size_t node) { return costs_.nodes[node].memory; };
+        std::stable_sort(nodes.begin(), nodes.end(), [&](auto a, auto b) { return matters(a) > matters(b); });
+        if (costs_.order.size() > all_subsets && nodes.size() > most_heavy) nodes.resize(most_heavy);
+        return nodes;
+    }
+
+    void make_options() {
+        const auto nodes = weighed();
+        options_.assign(hosts_.size(), {});
+        for (std::size_t host = 0; host < hosts_.size(); ++host) {
+            add_option(host, std::vector<bool>(all_.size(), false));
+            for (std::size_t set = 0; set < std::size_t{1} << nodes.size(); ++set) {
+                auto held = all_;
+                for (std::size_t i = 0; i < nodes.size(); ++i) held[nodes[i]] = set >> i & 1;
+                add_option(host, held);
+                add_option(host, closed(held));
+            }
+        }
+    }
+
+    // A layout in which each node is somewhere: what is largest first. `fill`: and wherever there is room.
+    HeldByHosts covering(bool fill) const {
+        HeldByHosts holds(hosts_.size(), std::vector<bool>(all_.size(), false));
+        auto nodes = costs_.order;
+        std::stable_sort(nodes.begin(), nodes.end(),
+                         [&](auto a, auto b) { return costs_.nodes[a].memory > costs_.nodes[b].memory; });
+        std::vector<double> load(hosts_.size(), 0);
+        const auto work = work_by_node(costs_);
+        const auto with = [&](std::size_t host, std::size_t node) {
+            auto held = holds[host];
+            held[node] = true;
+            return with_taken(held);
+        };
+        for (const auto node : nodes) {
+            std::size_t best = hosts_.size();
+            for (std::size_t host = 0; host < hosts_.size(); ++host)
+                if (has_room(costs_, hosts_[host], with(host, node)) &&
+                    (best == hosts_.size() || load[host] < load[best]))
+                    best = host;
+            if (best == hosts_.size()) continue;
+            holds[best] = with(best, node);
+            load[best] += work[node] / (hosts_[best].places * hosts_[best].speed);
+        }
+        for (std::size_t host = 0; fill && host < hosts_.size(); ++host)
+            for (const auto node : nodes)
+                if (has_room(costs_, hosts_[host], with(host, node))) holds[host] = with(host, node);
+        return holds;
+    }
+
+    // Host by host takes what is best for all, as long as that helps and nobody has to wait.
+    void descend(HeldByHosts holds) {
+        double seconds = consider(holds);
+        const std::size_t end = steps_ + most_steps / 3;
+        for (bool better = true; better && steps_ < end;) {
+            better = false;
+            for (std::size_t host = 0; host < hosts_.size() && steps_ < end; ++host)
+                for (const auto& option : options_[host]) {
+                    if (option == holds[host]) continue;
+                    auto other = holds;
+                    other[host] = option;
+                    const double found = consider(other);
+                    if (found >= seconds * 0.9999 || steps_ > end) continue;
+                    holds = std::move(other), seconds = found, better = true;
+                }
+        }
+    }
+
+    // The same with fewer tiles, where it has very many.
+    RunCosts shortened() const {
+        RunCosts costs = costs_;
+        double places = 0;
+        for (const auto& host : hosts_) places += host.places;
+        const double most = 150 * places, blocks = usual_blocks(costs.picture);
+        if (blocks <= most) return costs;
+        const auto side = [&](std::uint32_t pixels) {
+            return std::max(costs.picture.tile, std::uint32_t(pixels * std::sqrt(most / blocks)));
+        };
+        costs.picture.width = side(costs.picture.width), costs.picture.height = side(costs.picture.height);
+        const double part = usual_blocks(costs.picture) / blocks;
+        for (auto& node : costs.nodes) {
+            auto& preparing = node.preparing;
+            preparing.shard_seconds *= part, preparing.own_seconds *= part, preparing.bytes *= part;
+        }
+        return costs;
+    }
+
+    NodeLayout choose(const HeldByHosts* everywhere) {
+        const RunCosts costs = shortened();
+        const bool plays = hosts_.size() * costs_.order.size() <= few;
+        const auto seconds_of = [&](const NodeLayout& layout) {
+            if (!plays) return layout.seconds;
+            const auto found = forecast(costs, plan_of(layout.holds, hosts_), hosts_, launcher_, 1);
+            return found.prepare + found.render;
+        };
+        NodeLayout best = best_.front();
+        double least = seconds_of(best);
+        for (auto layout = std::next(best_.begin()); plays && layout != best_.end(); ++layout)
+            if (const double seconds = seconds_of(*layout); seconds < least) least = seconds, best = *layout;
+        if (plays) refine(best, least, seconds_of);
+        if (everywhere && best.holds != *everywhere) {
+            NodeLayout all{*everywhere, estimate_.seconds(*everywhere), {}};
+            const bool quicker = least < clearly_quicker * seconds_of(all);
+            if (!quicker || best.seconds >= clearly_quicker * all.seconds) best = std::move(all);
+        }
+        best.why = reasons(best.holds);
+        return best;
+    }
+
+    // Host by host takes what is best when it is played.
+    template <class SecondsOf>
+    void refine(NodeLayout& best, double& least, const SecondsOf& seconds_of) {
+        constexpr double worth = 0.995;
+        std::size_t left = most_played;
+        for (bool better = true; better && left > 0;) {
+            better = false;
+            for (std::size_t host = 0; host < hosts_.size(); ++host)
+                for (const auto& option : options_[host]) {
+                    if (option == best.holds[host] || left == 0) continue;
+                    NodeLayout other = best;
+                    other.holds[host] = option;
+                    other.seconds = estimate_.seconds(other.holds);
+                    if (other.seconds == std::numeric_limits<double>::infinity()) continue;
+                    --left;
+                    const double seconds = seconds_of(other);
+                    if (seconds >= worth * least) continue;
+                    best = std::move(other), least = seconds, better = true;
+                }
+        }
+    }
+
+    std::vector<std::string> reasons(const HeldByHosts& holds) const {
+        std::vector<std::string> why;
+        for (const auto node : costs_.order) {
+            std::string room, quicker;
+            for (std::size_t host = 0; host < hosts_.size(); ++host) {
+                if (holds[host][node]) continue;
+                auto held = holds[host];
+                held[node] = true;
+                const bool fits = has_room(costs_, hosts_[host], with_taken(held));
+                auto& names = fits ? quicker : room;
+                names += (names.empty() ? "" : ", ") + hosts_[host].name;
+            }
+            const auto& name = costs_.nodes[node].name;
+            if (!room.empty())
+                why.push_back(fmt::format("{} is not on {}: beside the rest, its {:.0f} MiB have no room there", name,
+                                          room, costs_.nodes[node].memory / 0x1p20));
+            if (!quicker.empty()) why.push_back(fmt::format("{} is not on {}: it is quicker so", name, quicker));
+        }
+        if (why.empty()) why.emplace_back("everything is everywhere: memory allows it, and nothing is quicker");
+        return why;
+    }
+
+    std::string widest() const {
+        std::size_t widest = costs_.image;
+        for (const auto node : costs_.order)
+            if (costs_.nodes[node].memory > costs_.nodes[widest].memory) widest = node;
+        return fmt::format("'{}' takes about {:.0f} MiB", costs_.nodes[widest].name,
+                           costs_.nodes[widest].memory / 0x1p20);
+    }
+
+    const RunCosts& costs_;
+    const std::vector<ForecastHost>& hosts_;
+    LineCost launcher_;
+    FlowEstimate estimate_;
+    std::vector<bool> all_;                                // nodes that the picture needs
+    std::vector<std::vector<std::vector<bool>>> options_;  // by host: what it may hold
+    std::vector<NodeLayout> best_;
+    std::size_t steps_ = 0;
+};
+
+}  // namespace
+
+bool has_room(const RunCosts& costs, const ForecastHost& host, const std::vector<bool>& held) {
+    return host.memory <= 0 || memory_of(costs, held) <= host.memory;
+}
+
+Plan plan_of(const HeldByHosts& holds, const std::vector<ForecastHost>& hosts) {
+    Plan plan;
+    plan.places_of.resize(holds.empty() ? 0 : holds.front().size());
+    for (std::size_t host = 0; host < hosts.size(); ++host) {
+        if (std::find(holds[host].begin(), holds[host].end(), true) == holds[host].end()) continue;
+        for (std::uint32_t place = 0; place < hosts[host].places; ++place) {
+            for (std::size_t node = 0; node < holds[host].size(); ++node)
+                if (holds[host][node]) plan.places_of[node].push_back(static_cast<std::uint32_t>(plan.places.size()));
+            plan.places.push_back({hosts[host].name, place});
+        }
+    }
+    return plan;
+}
+
+Hosts hosts_of(const HeldByHosts& holds, const RunCosts& costs, const std::vector<ForecastHost>& hosts, Hosts known) {
+    Hosts said = std::move(known);
+    std::vector<HostEntry> entries;
+    for (std::size_t host = 0; host < hosts.size(); ++host) {
+        const auto found = std::find_if(said.hosts.begin(), said.hosts.end(),
+                                        [&](const auto& entry) { return entry.host() == hosts[host].name; });
+        HostEntry entry = found == said.hosts.end() ? HostEntry{hosts[host].name, {}, 0, {}} : *found;
+        entry.places = static_cast<int>(hosts[host].places);
+        entry.replicas.clear();
+        const bool all =
+            std::all_of(costs.order.begin(), costs.order.end(), [&](auto node) { return holds[host][node]; });
+        bool any = all;
+        for (const auto node : costs.order)
+            if (holds[host][node] && !all) entry.replicas[costs.nodes[node].name] = entry.places, any = true;
+        if (any) entries.push_back(std::move(entry));
+    }
+    said.hosts = std::move(entries);
+    return said;
+}
+
+NodeLayout place_nodes(const RunCosts& costs, const std::vector<ForecastHost>& hosts, const LineCost& launcher) {
+    if (hosts.empty()) throw Error("there are no hosts to lay it out on");
+    return Search(costs, hosts, launcher).find();
+}
+
+}  // namespace lightnet
