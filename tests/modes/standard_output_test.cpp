@@ -51,6 +51,7 @@ std::map<std::string, Words> printing(const test::Folder& folder, const std::str
             {"remix", {}},
             {"clean", {}},
             {"bench-hosts", {}},
+            {"predict", {}},
             {"scene", {"info", test::graph_file("cornell_box.pbrt")}},
             {"check", {graph}},
             {"dot", {graph}},
