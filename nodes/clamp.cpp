@@ -40,7 +40,7 @@ Kind clamp_kind() {
                     .unit = "W·sr⁻¹·m⁻²",
                     .initial = Value{10.0},
                     .least = 0}},
-        .light = {.onward = ""},
+        .light = {.space = true, .onward = ""},
         .make_light = [](const NodeContext& here) { return std::make_unique<Clamp>(here); },
     };
 }

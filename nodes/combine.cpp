@@ -39,7 +39,7 @@ Kind combine_kind() {
                     .help = "one per input; none: all 1",
                     .initial = Value{Table{}},
                     .per_input = true}},
-        .light = {.linear = true},
+        .light = {.linear = true, .space = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<Combine>(here); },
     };
 }

@@ -13,6 +13,7 @@
 #include "core/estimate/lamps_met.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/estimate/shared_first_rays.hpp"
+#include "core/estimate/through_media.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -92,7 +93,7 @@ private:
         LampsMet lamps_met;                            // of these
     };
     /// Numbers of a sample, beside those of its direction.
-    enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp };
+    enum Dimension : std::uint32_t { choice_of_lamp, place_on_lamp, media_before_lamp, media_on_direction };
 
     /// take(index of question, what one sample of it finds of each group), in the order of questions and samples.
     template <class Take>
@@ -157,6 +158,10 @@ private:
         ShadowRays& rays = some.shadow_rays;
         some.occluded.resize(rays.rays.size());
         scene_.occluded(rays.rays, some.occluded);
+        if (scene_.has_media())
+            pass_through_media(scene_, some.occluded, rays, [&](std::uint32_t sum) {
+                return some.numbers.at(sum / groups_, media_before_lamp).next_2d();
+            });
         for (std::size_t i = 0; i < some.occluded.size(); ++i)
             if (!some.occluded[i]) some.found[rays.sums[i]] += rays.light[i];
         rays.resize(0);
@@ -181,11 +186,19 @@ private:
         some.leaving.clear();
         some.looking.clear();
     }
+    /// What media leave of the light that a sample finds by its direction.
+    Rgb through_media(const Samplers& some, std::uint32_t i) const {
+        if (!scene_.has_media()) return {1, 1, 1};
+        const SharedFirstRays::One& one = some.by_direction[i];
+        Ray way = one.step.ray;
+        if (one.hit) way.far = one.hit->distance;
+        return scene_.transmittance(way, some.numbers.at(i, media_on_direction).next_2d());
+    }
     void meet_lamps(Samplers& some) const {
         some.lamps_met.find(scene_, heuristic_, [&](std::uint32_t i, Rgb arriving, std::uint32_t group) {
             const SharedFirstRays::One& one = some.by_direction[i];
-            some.found[i * groups_ + group] +=
-                one.step.sample.weight * left_after(one.step.inside, one.hit->distance) * arriving;
+            some.found[i * groups_ + group] += one.step.sample.weight * left_after(one.step.inside, one.hit->distance) *
+                                               arriving * through_media(some, i);
         });
     }
     void meet_suns(Samplers& some) const {
@@ -193,7 +206,7 @@ private:
             const PathVertices::Step& step = some.by_direction[i].step;
             if (const auto sun = scene_.sun(step.ray.direction))
                 some.found[i * groups_ + sun->group] +=
-                    step.sample.weight * sky_by_bsdf(sun->light, step.sample, heuristic_);
+                    step.sample.weight * sky_by_bsdf(sun->light, step.sample, heuristic_) * through_media(some, i);
         }
     }
     void leave(Samplers& some, std::span<const std::uint32_t> samples) const {
@@ -204,7 +217,7 @@ private:
         for (std::size_t k = 0; k < samples.size(); ++k) {
             const BsdfSample& sample = some.by_direction[samples[k]].step.sample;
             some.found[samples[k] * groups_ + scene_.environment_group()] +=
-                sample.weight * sky_by_bsdf(sky[k], sample, heuristic_);
+                sample.weight * sky_by_bsdf(sky[k], sample, heuristic_) * through_media(some, samples[k]);
         }
     }
 
@@ -291,7 +304,7 @@ Kind direct_lighting_kind() {
                  .initial = Value{"auto"},
                  .choices = {"auto", "power", "balance", "lamps", "directions"}},
             },
-        .light = {.lamps = true, .groups = true, .paths = always({"LD"})},
+        .light = {.space = true, .lamps = true, .groups = true, .paths = always({"LD"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<DirectLighting>(here); },
     };
 }

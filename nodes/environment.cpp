@@ -48,7 +48,9 @@ private:
             if (!sample) continue;
             const Ray ray{point.origin_towards(sample->incoming), sample->incoming};
             rays.rays.push_back(ray);
-            rays.light.push_back(sample->weight * scene_.environment(ray) / float(samples_));
+            Rgb light = sample->weight * scene_.environment(ray) / float(samples_);
+            if (scene_.has_media()) light *= scene_.transmittance(ray, samples.next_2d());
+            rays.light.push_back(light);
             rays.askers.push_back(asker);
         }
     }
@@ -71,7 +73,7 @@ Kind environment_kind() {
                     .initial = Value{1.0},
                     .least = 1,
                     .most = 65536}},
-        .light = {.lamps = true, .groups = true, .paths = always({"VD"})},
+        .light = {.space = true, .lamps = true, .groups = true, .paths = always({"VD"})},
         .make_light = [](const NodeContext& here) { return std::make_unique<SkyLight>(here); },
     };
 }

@@ -88,7 +88,7 @@ Kind path_tracing_kind() {
                  .choices = {"light directions"},
                  .optional = true},
             },
-        .light = {.lamps = true, .groups = true, .paths = paths_of},
+        .light = {.space = true, .lamps = true, .groups = true, .paths = paths_of},
         .make_light = [](const NodeContext& here) { return std::make_unique<PathTracing>(here); },
     };
 }

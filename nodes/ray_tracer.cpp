@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/math/samples.hpp"
+#include "core/estimate/pixel_filter.hpp"
 #include "core/estimate/specular_path.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/node_context.hpp"
@@ -15,50 +16,6 @@
 
 namespace lightnet {
 namespace {
-
-/// Where the samples of a pixel lie: distributed like its filter (Ernst et al. 2006, "Filter importance sampling").
-/// Filters with negative lobes (Mitchell's) have no such density, and would need weights of both signs.
-class PixelFilter {
-public:
-    PixelFilter(const std::string& shape, float radius) {
-        if (shape == "box") {
-            box_ = true;
-            radius_ = radius > 0 ? radius : 0.5f;
-            return;
-        }
-        const bool tent = shape == "tent";
-        radius_ = radius > 0 ? radius : tent ? 1 : 1.5f;
-        // Gaussian of deviation radius / 3, lowered so that it ends in 0.
-        const auto height = [&](double t) { return tent ? 1 - std::fabs(t) : std::exp(-4.5 * t * t) - std::exp(-4.5); };
-        ends_[0] = 0;
-        for (std::size_t i = 0; i < steps; ++i) {
-            const double left = 2.0 * double(i) / steps - 1, right = 2.0 * double(i + 1) / steps - 1;
-            ends_[i + 1] = ends_[i] + (height(left) + height(right)) / steps;
-        }
-        for (double& end : ends_) end /= ends_[steps];
-    }
-
-    /// From the pixel's upper left corner.
-    Vec2 place(Vec2 u) const {
-        if (box_ && radius_ == 0.5f) return u;
-        return {0.5f + radius_ * offset(u.x), 0.5f + radius_ * offset(u.y)};
-    }
-
-private:
-    // In -1 … 1. Within a step the density is taken for constant.
-    float offset(float u) const {
-        if (box_) return 2 * u - 1;
-        const auto end = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, double{u});
-        const auto step = end - ends_.begin() - 1;
-        const double part = (u - ends_[std::size_t(step)]) / (*end - ends_[std::size_t(step)]);
-        return float(2 * (double(step) + part) / steps - 1);
-    }
-
-    static constexpr std::size_t steps = 256;
-    bool box_ = false;
-    float radius_ = 0.5f;
-    std::array<double, steps + 1> ends_{};  // share of the filter up to each step
-};
 
 /// Follows rays from the eye through mirrors and glass. Where a surface scatters in other ways too it asks its lighting
 /// input about those; what shines by itself it adds to the first layers, one for each group of lamps. Samples are
@@ -125,6 +82,7 @@ private:
         std::vector<Rgb> weights;         // what reaches the eye of them
         std::vector<Branch> branches;     // scratch
         std::vector<Rgb> emitted;         // the same: on one sample's path, by group of lamps
+        std::vector<std::size_t> fogged;  // pixels of samples that see a medium, and no surface behind it
     };
     /// One sample of a pixel.
     struct TileSample {
@@ -150,6 +108,7 @@ private:
         if (!alpha_) return;
         for (std::size_t i = 0; i < samples.size(); ++i)
             if (hits[i]) pixels[(samples[i].pixel + 1) * inputs_.layers() - 1] += Rgb{1, 1, 1};
+        for (const std::size_t pixel : met.fogged) pixels[(pixel + 1) * inputs_.layers() - 1] += Rgb{1, 1, 1};
     }
 
     /// The rays of the eye through some pixels, sample by sample, which are told.
@@ -190,7 +149,7 @@ private:
     /// long.
     void follow(const TileSample& sample, const Ray& ray, const std::optional<Hit>& hit, PixelQuestions& met,
                 std::span<Rgb> pixel, const Tile& tile) const {
-        if (hit && only_scatters(*hit))
+        if (hit && only_scatters(*hit) && !scene_.has_media())
             return ask_about(sample, SpecularPath(ray), *hit, 0, 0, scene_.lobes(*hit), met);
         met.emitted.assign(scene_.groups(), Rgb{});
         met.branches.assign(1, {SpecularPath(ray), hit, 0});
@@ -208,6 +167,7 @@ private:
 
     /// The surface of that number that a sample meets, and what shines by itself there.
     void visit(const TileSample& sample, Branch branch, std::uint32_t surface, PixelQuestions& met) const {
+        if (scene_.has_media() && collides(sample, branch, surface, met)) return;
         if (!branch.hit) {
             if (!background_ && surface == 0) return;
             const Ray& ray = branch.path.ray();
@@ -237,6 +197,22 @@ private:
         met.branches.push_back({branch.path, scene_.intersect(branch.path.ray()), branch.depth + 1});
     }
 
+    /// Does a medium scatter what the sample would meet? Then that is asked about. What media emit belongs to the group
+    /// of the environment.
+    bool collides(const TileSample& sample, Branch& branch, std::uint32_t surface, PixelQuestions& met) const {
+        Ray way = branch.path.ray();
+        if (branch.hit) way.far = branch.hit->distance;
+        Samples samples(child(sample.key, flight_key, surface), sample.sample);
+        const Flight flight = scene_.fly(way, branch.path.weight(), samples.next_2d());
+        met.emitted[scene_.environment_group()] += branch.path.weight() * flight.emitted;
+        branch.path.dim(flight.weight);
+        if (!flight.collision) return false;
+        branch.path.arrive(flight.collision->distance);
+        ask(branch.path.question_about(*flight.collision, branch.depth), sample, branch.path, surface, met);
+        if (surface == 0 && !branch.hit) met.fogged.push_back(sample.pixel);
+        return true;
+    }
+
     /// Most surfaces do, everywhere alike: who is asked works them out.
     bool only_scatters(const Hit& hit) const {
         const std::uint8_t everywhere = scene_.lobes(hit);
@@ -246,9 +222,12 @@ private:
     /// The question about rough lobes of that surface, so many mirrors and panes behind the eye.
     void ask_about(const TileSample& sample, const SpecularPath& path, const Hit& hit, std::uint32_t depth,
                    std::uint32_t surface, std::uint8_t lobes, PixelQuestions& met) const {
-        // Written where it stays: one that is put together and then copied would have to lie in memory first.
-        Query& question = met.questions.emplace_back();
-        question = path.question_about(hit, lobes, depth);
+        ask(path.question_about(hit, lobes, depth), sample, path, surface, met);
+    }
+    // Written where it stays: one that is put together and then copied would have to lie in memory first.
+    [[gnu::always_inline]] void ask(const Query& about, const TileSample& sample, const SpecularPath& path,
+                                    std::uint32_t surface, PixelQuestions& met) const {
+        Query& question = met.questions.emplace_back(about);
         question.stream = child(sample.key, key_, surface);
         question.sample = sample.sample;
         question.pass = here_.pass_mark(sample.sample);
@@ -297,6 +276,7 @@ private:
     static constexpr float both_carry = 0.01f;  // at least, where both branches at glass are followed
     static constexpr float keep = 25;           // what is fainter than its inverse is followed seldom
     static constexpr Key chain_key = key_of("chain of mirrors");
+    static constexpr Key flight_key = key_of("flights");
 
     NodeContext here_;
     const Scene& scene_;

@@ -41,7 +41,7 @@ Kind scale_kind() {
                     .initial = Value{Table{}},
                     .least = 0,
                     .count = 3}},
-        .light = {.linear = true, .partial = true},
+        .light = {.linear = true, .partial = true, .space = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<Scale>(here); },
     };
 }

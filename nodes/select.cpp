@@ -25,7 +25,8 @@ public:
         : scene_(here.scene()),
           inputs_(here.inputs()),
           except_(here.flag("except")),
-          boxed_(!here.numbers("box").empty()) {
+          boxed_(!here.numbers("box").empty()),
+          named_(!here.text("material").empty() || !here.text("object").empty()) {
         const auto box = here.numbers("box");
         for (std::size_t i = 0; i < std::min(box.size(), box_.size()); ++i) box_[i] = static_cast<float>(box[i]);
         const SceneData& data = scene_.data();
@@ -56,9 +57,7 @@ public:
 
 private:
     bool selects(const Query& question) const {
-        if (!made_of_[question.geometry]) return false;
-        const bool instance = question.instance != Query::no_instance;
-        if (!called_[question.geometry] && !(instance && of_object_[question.instance])) return false;
+        if (question.is_in_space() ? named_ : !is_called_so(question)) return false;
         if (!boxed_) return true;
         const SurfacePoint point = scene_.surface(question);
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -66,11 +65,18 @@ private:
         return true;
     }
 
+    bool is_called_so(const Query& question) const {
+        const bool instance = question.instance != Query::no_instance;
+        return made_of_[question.geometry] &&
+               (called_[question.geometry] || (instance && of_object_[question.instance]));
+    }
+
     const Scene& scene_;
     Inputs inputs_;
     std::vector<bool> made_of_, called_;  // by shape: it has the material, the name
     std::vector<bool> of_object_;         // by instance
     bool except_, boxed_;
+    bool named_;  // a material or an object: media have no such name
     std::array<float, 6> box_{};
 };
 
@@ -150,7 +156,7 @@ Kind select_kind() {
                     .help = "all other surfaces instead",
                     .initial = Value{false}}},
         .mistakes = mistakes,
-        .light = {.linear = true, .partial = true},
+        .light = {.linear = true, .partial = true, .space = true},
         .make_light = [](const NodeContext& here) { return std::make_unique<Select>(here); },
     };
 }

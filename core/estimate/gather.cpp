@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint32_t most_mirrors = 100;  // in a row
 constexpr float contrast = 4;                // what is fainter than its inverse is followed seldom
 constexpr Key chain_key = key_of("chain of mirrors");
+constexpr Key flight_key = key_of("flights");
 
 /// Questions about what rays meet, in order of ray and depth.
 struct RayQuestions {
@@ -21,27 +22,41 @@ struct RayQuestions {
     std::vector<Rgb> weights;
 };
 
-Query question_about(const GatherRay& ray, const SpecularPath& path, const Hit& hit, std::uint8_t lobes,
-                     std::uint32_t mirrors) {
-    Query question = path.question_about(hit, lobes, ray.depth + 1u + mirrors);
+void add(Query question, const GatherRay& ray, const SpecularPath& path, std::uint32_t mirrors, std::size_t index,
+         RayQuestions& met) {
     question.stream = mirrors ? child(ray.stream, chain_key, mirrors) : ray.stream;
     question.sample = ray.sample;
     question.pass = ray.pass;
-    return question;
+    met.questions.push_back(question);
+    met.rays.push_back(index);
+    met.weights.push_back(path.weight());
+}
+
+// Does a medium scatter what the path would meet? Then that is asked about. What media emit is left to others.
+bool collides(const Scene& scene, const GatherRay& ray, const std::optional<Hit>& hit, std::uint32_t mirrors,
+              std::size_t index, SpecularPath& path, RayQuestions& met) {
+    Ray way = path.ray();
+    if (hit) way.far = hit->distance;
+    Samples samples(child(ray.stream, flight_key, mirrors), ray.sample);
+    const Flight flight = scene.fly(way, path.weight(), samples.next_2d());
+    path.dim(flight.weight);
+    if (!flight.collision) return false;
+    path.arrive(flight.collision->distance);
+    add(path.question_about(*flight.collision, ray.depth + 1u + mirrors), ray, path, mirrors, index, met);
+    return true;
 }
 
 void follow(const Scene& scene, const GatherRay& ray, std::optional<Hit> hit, std::size_t index, RayQuestions& met) {
     SpecularPath path(ray.ray);
-    for (std::uint32_t mirrors = 0; hit; ++mirrors) {
+    for (std::uint32_t mirrors = 0;; ++mirrors) {
+        if (scene.has_media() && collides(scene, ray, hit, mirrors, index, path, met)) return;
+        if (!hit) return;
         path.arrive(hit->distance);
         const SurfacePoint point = scene.surface(*hit);
         const Bsdf bsdf = scene.bsdf(point);
         const std::uint8_t lobes = bsdf.lobes();
-        if (lobes & lobe::rough) {
-            met.questions.push_back(question_about(ray, path, *hit, lobes, mirrors));
-            met.rays.push_back(index);
-            met.weights.push_back(path.weight());
-        }
+        if (lobes & lobe::rough)
+            add(path.question_about(*hit, lobes, ray.depth + 1u + mirrors), ray, path, mirrors, index, met);
         if (!(lobes & lobe::specular) || mirrors >= most_mirrors) return;
         if (!path.go_on(point, bsdf, Samples(child(ray.stream, chain_key, 256 + mirrors), ray.sample), contrast))
             return;

@@ -50,10 +50,12 @@ struct PathBatch {
     std::vector<Path> paths;
     std::vector<Ray> rays;  // of each path
     std::vector<std::optional<Hit>> hits;
-    ManySamples samples;                         // of each path
-    std::span<SharedFirstRays::One> first_rays;  // of those that began
-    ManySamples first_samples;                   // the same, of their random numbers
-    std::vector<std::uint32_t> begun;            // of paths that go on by them: which of those
+    ManySamples flights;                               // of each path that began, where there are media: of its flights
+    std::vector<std::optional<Collision>> collisions;  // of each path, where there are media: before its hit
+    ManySamples samples;                               // of each path
+    std::span<SharedFirstRays::One> first_rays;        // of those that began
+    ManySamples first_samples;                         // the same, of their random numbers
+    std::vector<std::uint32_t> begun;                  // of paths that go on by them: which of those
     Numbers numbers;
     PathVertices vertices;
     ShadowRays shadow_rays;

@@ -63,7 +63,8 @@ inline void PathVertices::find_guided() {
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const SurfacePoint& point = points_[i];
         const GuideSide side = GuideSide::of(point.normal, bsdfs_[i].shading().z, views_[i].outgoing);
-        const bool rough = bsdfs_[i].lobes() & views_[i].lobes & lobe::rough;
+        // No guide knows directions around a point without a normal.
+        const bool rough = !point.is_in_space() && bsdfs_[i].lobes() & views_[i].lobes & lobe::rough;
         const CosineChoices choices = bsdfs_[i].cosine_choices(views_[i].outgoing, views_[i].lobes);
         guided_[i] = rough ? guide_->at(point.position, side, choices) : GuidedPoint();
     }

@@ -42,6 +42,14 @@ public:
         }
         add_to_last(path, hit, outgoing, lobes);
     }
+    /// Path `path`, after those added before, has collided with a medium. Not when it is full.
+    void add_in_space(std::uint32_t path, Vec3 position, std::uint16_t medium, Vec3 outgoing, std::uint8_t lobes,
+                      const Rgb* inside) {
+        last_ = Kind::none;
+        points_.push_back(scene_.point_in_space(position, medium));
+        views_.push_back({outgoing, lobes, inside});
+        add_to_last(path, {}, outgoing, lobes);
+    }
     /// The place of the one added last again.
     void add_again(std::uint32_t path, const Hit& hit, Vec3 outgoing, std::uint8_t lobes) {
         add_to_last(path, hit, outgoing, lobes);
@@ -61,6 +69,11 @@ public:
                 continue;
             }
             before = &asked;
+            if (asked.is_in_space()) {
+                add_in_space(static_cast<std::uint32_t>(path), asked.place_in_space(), asked.medium, asked.outgoing,
+                             asked.lobes, nullptr);
+                continue;
+            }
             hit = scene_.hit(asked);
             add(static_cast<std::uint32_t>(path), hit, asked.outgoing, asked.lobes, nullptr);
         }
@@ -79,7 +92,8 @@ public:
         each_group([&](const auto& group) {
             for (const std::uint32_t i : group.shining()) with(group.who(i), group.point(i));
         });
-        for (const auto [path, point] : visitors_) with(path, points_[point]);
+        for (const auto [path, point] : visitors_)
+            if (!points_[point].is_in_space()) with(path, points_[point]);
     }
 
     /// How they scatter: before anything of the following is asked.

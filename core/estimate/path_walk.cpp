@@ -5,6 +5,8 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/estimate/path_batch.hpp"
+#include "core/estimate/path_chances.hpp"
+#include "core/estimate/through_media.hpp"
 #include "core/scene/direct_light.hpp"
 
 namespace lightnet {
@@ -25,7 +27,8 @@ public:
           max_depth_(plan.max_depth),
           roulette_depth_(plan.roulette_depth),
           all_(plan.all),
-          looks_twice_(scene_.has_environment() && !scene_.samples_environment()) {}
+          looks_twice_(scene_.has_environment() && !scene_.samples_environment()),
+          media_(scene.has_media()) {}
 
     void walk(std::span<const Query> questions, std::span<Rgb> answers, Learnt* learnt) const {
         const std::size_t paths = questions.size() * samples_;
@@ -83,6 +86,7 @@ private:
         batch.sums.assign((last - first) * groups_, Rgb{});
         batch.paths.clear();
         batch.samples.keep(0);
+        batch.flights.keep(0);
         batch.asked.clear();
         for (std::size_t path = first; path < last;) {
             const std::size_t q = path / samples_, end = std::min(last, (q + 1) * samples_);
@@ -91,6 +95,7 @@ private:
             for (; path < end; ++path, ++index) {
                 batch.asked.push_back(q);
                 batch.samples.add(key, index);
+                if (media_) batch.flights.add(child(key, flight_key), index);
                 batch.paths.push_back(
                     {static_cast<std::uint32_t>(path - first) * groups_, 1, {1, 1, 1}, nullptr, {}, {}});
             }
@@ -110,7 +115,7 @@ private:
                 go_round(batch, 0);
             }
         }
-        close(batch);
+        close(batch, 0);
     }
 
     /// Of the paths that begin: `before` of the call's were before them.
@@ -150,31 +155,54 @@ private:
     /// Takes all paths over their next vertex: the one of number `depth`.
     void go_on(Batch& batch, std::uint32_t depth) const {
         trace(batch, depth);
+        if (media_) fly(batch, depth);
         draw(batch, depth);
         batch.kept = 0;
         for (std::size_t first = 0; first < batch.paths.size(); first += vertices_at_once)
             visit(batch, first, std::min(batch.paths.size(), first + vertices_at_once), depth);
-        close(batch);
+        close(batch, depth);
+    }
+
+    /// What media do to paths on their way to what they would meet. They shine as the sky does: no lamp is looked for
+    /// in them.
+    void fly(Batch& batch, std::uint32_t depth) const {
+        batch.collisions.resize(batch.paths.size());
+        for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+            Path& path = batch.paths[i];
+            Ray way = batch.rays[i];
+            if (batch.hits[i]) way.far = batch.hits[i]->distance;
+            const Flight flight = scene_.fly(way, path.weight, flight_numbers(batch, path.sum, 2 * depth));
+            batch.sums[path.sum + scene_.environment_group()] += path.weight * flight.emitted;
+            path.weight *= flight.weight;
+            batch.collisions[i] = flight.collision;
+        }
+    }
+    Vec2 flight_numbers(const Batch& batch, std::uint32_t sum, std::uint32_t dimension) const {
+        return batch.flights.at(sum / groups_, dimension).next_2d();
+    }
+    /// A path has come to a point in a medium.
+    void collide(Batch& batch, std::size_t i) const {
+        Path& path = batch.paths[i];
+        const Collision& at = *batch.collisions[i];
+        if (path.inside) path.weight *= left_after(path.inside, at.distance);
+        batch.vertices.add_in_space(static_cast<std::uint32_t>(i), batch.rays[i].origin + path.incoming * at.distance,
+                                    at.medium, -path.incoming, lobe::all, path.inside);
     }
 
     /// Keeps the paths that go on, and adds what shadow rays found where nothing is in between.
-    void close(Batch& batch) const {
+    void close(Batch& batch, std::uint32_t depth) const {
         batch.paths.resize(batch.kept);
         batch.rays.resize(batch.kept);
         batch.samples.keep(batch.kept);
         ShadowRays& found = batch.shadow_rays;
         batch.occluded.resize(found.rays.size());
         scene_.occluded(found.rays, batch.occluded);
+        if (media_)
+            pass_through_media(scene_, batch.occluded, found,
+                               [&](std::uint32_t sum) { return flight_numbers(batch, sum, 2 * depth + 1); });
         for (std::size_t i = 0; i < found.sums.size(); ++i)
             batch.sums[found.sums[i]] += nothing_if(batch.occluded[i], found.light[i]);
         found.resize(0);
-    }
-
-    /// Without a branch, as what is in the way can't be foretold.
-    static Rgb nothing_if(bool occluded, Rgb light) {
-        const std::uint32_t mask = std::uint32_t{occluded} - 1;
-        const auto masked = [&](float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & mask); };
-        return {masked(light.r), masked(light.g), masked(light.b)};
     }
 
     void draw(Batch& batch, std::uint32_t depth) const {
@@ -193,6 +221,10 @@ private:
         std::size_t leaving = 0;
         for (std::size_t i = first; i < last; ++i) {
             Path& path = batch.paths[i];
+            if (media_ && batch.collisions[i]) {
+                collide(batch, i);
+                continue;
+            }
             if (!batch.hits[i]) {
                 batch.leaving[leaving] = static_cast<std::uint32_t>(i);
                 batch.skywards[leaving++] = batch.rays[i];
@@ -324,27 +356,8 @@ private:
         batch.paths[to] = {path.sum, eta_scale, weight, on.inside, on.from, by.incoming, by.pdf, by.lobe, hoped};
     }
 
-    /// Russian roulette: paths end by chance, and the others carry more. `kept` is the share of light that the last
-    /// surface leaves: by it alone, not by all that was lost before, paths end gradually from `roulette_depth` on.
-    /// Measured on rooms, variance × rays is a quarter to a half less than with a chance by the whole weight.
-    // DECISIONS: roulette-from-the-third
-    static float chance_to_survive(float kept) { return std::min(kept, 0.95f); }
-    // With a guide, by what the path may still bring, beside what all of it is thought to bring: Vorba & Křivánek 2016,
-    // "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation", without splitting.
-    // Without a branch, as what is left can't be foretold: a compiler would make one for the chance of 1.
-    static float chance_by_hope(float left) {
-        const auto select = [](bool first, float a, float b) {
-            const std::uint32_t mask = std::uint32_t{first} - 1;
-            return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & ~mask) |
-                                        (std::bit_cast<std::uint32_t>(b) & mask));
-        };
-        const float wish = hope_counts * left, least = select(wish > least_chance, wish, least_chance);
-        return select(least < 1, least, 1);
-    }
-    static constexpr float hope_counts = 4;
-    static constexpr float least_chance = 0.1f;
-
     static constexpr Heuristic heuristic = Heuristic::automatic;
+    static constexpr Key flight_key = key_of("flights");
 
     const Scene& scene_;
     const LightGuide* guide_;
@@ -356,6 +369,7 @@ private:
     std::uint32_t roulette_depth_;
     bool all_;          // direct light as well
     bool looks_twice_;  // for the environment
+    bool media_;        // are there any?
 };
 
 }  // namespace

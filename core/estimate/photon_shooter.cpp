@@ -79,6 +79,11 @@ bool PhotonShooter::keeps(bool met_mirror, bool met_rough) const {
 template <class Keep>
 void PhotonShooter::visit(PhotonPath path, const Ray& ray, const Hit& hit, const Keep& keep, Batch& batch) const {
     if (path.inside) path.flux *= left_after(path.inside, hit.distance);
+    if (scene_.has_media()) {  // what is scattered on the way is left out
+        const Ray way{ray.origin, ray.direction, hit.distance};
+        path.flux *= scene_.transmittance(way, path.samples.next_2d());
+        if (is_black(path.flux)) return;
+    }
     const SurfacePoint point = scene_.surface(hit);
     const Bsdf bsdf = scene_.bsdf(point);
     const Vec3 arriving = -ray.direction;

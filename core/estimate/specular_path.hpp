@@ -24,6 +24,14 @@ public:
 
     /// The ray meets a surface at this distance.
     void arrive(float distance);
+    /// Media leave so much of what follows.
+    void dim(const Rgb& left) { weight_ *= left; }
+    /// The question about a collision on the ray, after `depth` scattering events; whose it is, the asker adds.
+    Query question_about(const Collision& at, std::uint32_t depth) const {
+        Query question{.outgoing = -ray_.direction, .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
+        question.put_into_space(ray_.origin + ray_.direction * at.distance, at.medium);
+        return question;
+    }
     /// The question about rough lobes of that surface, after `depth` scattering events; whose it is, the asker adds.
     Query question_about(const Hit& hit, std::uint8_t lobes, std::uint32_t depth) const {
         return {.instance = hit.instance,

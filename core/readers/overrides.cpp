@@ -161,6 +161,27 @@ void make_clay(SceneData& scene) {
     }
 }
 
+/// Solid glass stays empty, and what the file fills stays as it is.
+void put_fog(const FogOverride& wanted, SceneData& scene, const SourceLine& where) {
+    Medium fog;
+    fog.name = "fog";
+    fog.where = where;
+    fog.extinction.value = Rgb{1, 1, 1} * wanted.density;
+    fog.albedo.value = wanted.albedo;
+    if (wanted.g != 0) fog.phase = {PhaseFunction::Law::henyey_greenstein, wanted.g};
+    if (const auto fault = fog.fault(); !fault.empty() || max_component(wanted.albedo) > 1)
+        throw UserError(where, "'fog': " + (fault.empty() ? "an 'albedo' can't be above 1" : fault));
+    const auto index = static_cast<std::uint16_t>(scene.media.size());
+    for (Shape& shape : scene.shapes) {
+        const bool solid = shape.material < scene.materials.size() &&
+                           transparency_of(scene.materials[shape.material]) == Transparency::solid;
+        if (!shape.media && solid) shape.media = MediumSides{};
+        if (shape.media && shape.media->outside == scene.around) shape.media->outside = index;
+    }
+    scene.media.push_back(std::move(fog));
+    scene.around = index;
+}
+
 }  // namespace
 
 std::optional<Onlooker> look_again(const SceneOverrides& overrides, const SceneData& changed, const SourceLine& where) {
@@ -190,6 +211,7 @@ void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, cons
             throw UserError(where, "'sky' and 'environment': only one of them can be around the scene");
         put_sky(*overrides.sky, scene, where);
     }
+    if (overrides.fog) put_fog(*overrides.fog, scene, where);
     for (auto& environment : scene.environments) environment.radiance *= overrides.environment_scale;
     scene.film.scale *= std::exp2(overrides.exposure);
     if (overrides.clay) make_clay(scene);

@@ -30,11 +30,19 @@ struct SkyOverride {
     std::optional<float> sun_angle;  // degrees, from rim to rim; else as it is
 };
 
+/// Fog all around.
+struct FogOverride {
+    float density = 0;  // collisions per metre
+    Rgb albedo{1, 1, 1};
+    float g = 0;  // mean cosine, -1 … 1 without these
+};
+
 struct SceneOverrides {
     std::string seen_by{};  // camera of the file, by its name or number (1, 2, …); "": the first one
     std::optional<CameraOverride> camera;
     std::variant<std::monostate, Rgb, std::string> environment;  // a colour, or the path of a picture: instead of all
     std::optional<SkyOverride> sky{};
+    std::optional<FogOverride> fog{};
     float environment_scale = 1;      // of whatever is around the scene then
     float exposure = 0;               // stops: doublings of the picture's brightness
     bool clay = false;                // all surfaces grey and diffuse

@@ -5,6 +5,7 @@
 #include "core/scene/geometry/geometry.hpp"
 #include "core/scene/lamps/lights.hpp"
 #include "core/scene/ray_witness.hpp"
+#include "core/scene/scene_media.hpp"
 #include "core/scene/scene_size.hpp"
 #include "core/scene/surfaces/shading.hpp"
 
@@ -65,6 +66,7 @@ struct Scene::Built {
         : data(checked(std::move(given))),
           shading(data),
           geometry(data, shading, {options.isa, options.build_threads}),
+          media(data, options.isa, options.build_threads),
           box(finite_box(geometry.bounds())) {
         // Those who ask the data find the camera that is used.
         data.film = sized(data.film, options);
@@ -80,6 +82,7 @@ struct Scene::Built {
     SceneData data;
     Shading shading;
     Geometry geometry;
+    Media media;
     Box box;
 };
 
@@ -88,21 +91,24 @@ Scene::Scene(SceneData data, const SceneOptions& options)
       lights_(built_->lights({})),
       seen_from_(built_->data.camera),
       film_(built_->data.film),
-      camera_(seen_from_, film_.width, film_.height) {}
+      camera_(seen_from_, film_.width, film_.height),
+      has_media_(built_->media.any()) {}
 
 Scene::Scene(const Scene& whole, const LampView& lamps)
     : built_(whole.built_),
       lights_(built_->lights({lamps.groups, lamps.apart})),
       seen_from_(whole.seen_from_),
       film_(whole.film_),
-      camera_(whole.camera_) {}
+      camera_(whole.camera_),
+      has_media_(whole.has_media_) {}
 
 Scene::Scene(const Scene& whole, const Onlooker& by, const SceneOptions& options)
     : built_(whole.built_),
       lights_(whole.lights_),
       seen_from_(by.camera),
       film_(sized(by.film, options)),
-      camera_(seen_from_, film_.width, film_.height) {}
+      camera_(seen_from_, film_.width, film_.height),
+      has_media_(whole.has_media_) {}
 
 Scene::~Scene() = default;
 
@@ -160,10 +166,25 @@ const SceneData& Scene::data() const { return built_->data; }
 
 std::uint8_t Scene::lobes(const Hit& hit) const { return built_->shading.lobes(hit.geometry); }
 
-Bsdf Scene::bsdf(const SurfacePoint& point) const { return built_->shading.bsdf(point); }
+Bsdf Scene::bsdf(const SurfacePoint& point) const {
+    return point.is_in_space() ? built_->media.bsdf(point) : built_->shading.bsdf(point);
+}
 
 void Scene::add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const {
-    built_->shading.add_bsdfs(points, to);
+    if (!has_media_) return built_->shading.add_bsdfs(points, to);
+    for (const SurfacePoint& point : points) to.push_back(bsdf(point));
+}
+
+SurfacePoint Scene::point_in_space(Vec3 position, std::uint16_t medium) const {
+    return built_->media.point(position, medium);
+}
+
+Flight Scene::fly(const Ray& ray, Rgb carried, Vec2 numbers) const {
+    return built_->media.fly(ray, carried, {ray, numbers});
+}
+
+Rgb Scene::transmittance(const Ray& ray, Vec2 numbers) const {
+    return built_->media.transmittance(ray, {ray, numbers});
 }
 
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const { return lights_->emission(point, direction); }

@@ -18,6 +18,7 @@
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/lit_point.hpp"
+#include "core/scene/media/flight.hpp"
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
@@ -86,9 +87,22 @@ public:
     void add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const;
     /// Fetches what will be asked about them from memory: of some at once, before the first is.
     void expect(std::span<const std::optional<Hit>> hits) const;
-    SurfacePoint surface(const Query& query) const { return surface(hit(query)); }
+    /// Of what a question names; a point in a medium as well.
+    SurfacePoint surface(const Query& query) const {
+        return query.is_in_space() ? point_in_space(query.place_in_space(), query.medium) : surface(hit(query));
+    }
     /// What a question names, as if a ray had met it. Throws Error if it isn't there: it may come from another host.
     Hit hit(const Query& query) const;
+    /// A point in a medium. Throws Error if there is no such medium.
+    SurfacePoint point_in_space(Vec3 position, std::uint16_t medium) const;
+
+    /// Is there any medium? Where there is none, nobody needs to ask what follows.
+    bool has_media() const { return has_media_; }
+    /// What becomes of a path along a ray until ray.far, which has `carried` so much so far.
+    Flight fly(const Ray& ray, Rgb carried, Vec2 numbers) const;
+    /// What is left of light along a ray until ray.far. `numbers`: see FlightNumbers.
+    Rgb transmittance(const Ray& ray, Vec2 numbers) const;
+
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone, and who looks is
     /// who looked then.
     const SceneData& data() const;
@@ -175,6 +189,7 @@ private:
     CameraData seen_from_;
     FilmData film_;
     Camera camera_;
+    bool has_media_ = false;
 };
 
 }  // namespace lightnet

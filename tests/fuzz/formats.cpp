@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/readers/common/light_profile.hpp"
 #include "core/readers/common/measurements.hpp"
+#include "core/readers/common/volume_file.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/scene/bsdf/measured.hpp"
@@ -196,6 +197,23 @@ std::vector<std::string> serialized_seeds() {
     return {one + packed(6) + raw(std::uint64_t{0}, std::uint64_t{one.size()}, 2u), packed(6)};
 }
 
+void read_volume(std::span<const std::byte> bytes) {
+    try {
+        const auto volume = read_volume_file(bytes, {});
+        for (const Vec3 place : {Vec3{0, 0, 0}, Vec3{0.3f, 0.9f, 0.5f}, Vec3{1, 1, 1}, Vec3{-1e30f, 1e30f, 0}})
+            if (!finite(volume.grid->at(place))) throw std::logic_error("a volume of impossible density");
+    } catch (const Error&) {
+    }
+}
+
+std::vector<std::string> volume_seeds() {
+    using test::raw;
+    const auto header = [](int type, int channels) {
+        return "VOL\3" + raw(type, 2, 1, 2, channels) + raw(0.f, 0.f, 0.f, 1.f, 1.f, 1.f);
+    };
+    return {header(1, 1) + raw(0.f, 1.f, .5f, 2.f), header(3, 3) + std::string("\0\1\2\3\4\5\6\7\x8\x9\xA\xB", 12)};
+}
+
 void read_measured(std::span<const std::byte> bytes) {
     try {
         const auto measured = read_measurement(bytes);
@@ -242,6 +260,7 @@ Target obj() { return {"obj", read_obj<drop>, obj_seeds}; }
 Target rays_obj() { return {"rays_obj", read_obj<render>, obj_seeds, 20}; }
 Target measured() { return {"measured", read_measured, measured_seeds}; }
 Target profiles() { return {"profiles", read_profile, profile_seeds}; }
+Target volumes() { return {"volumes", read_volume, volume_seeds}; }
 Target serialized() { return {"serialized", read_serialized, serialized_seeds}; }
 
 }  // namespace lightnet::fuzz

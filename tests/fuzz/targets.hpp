@@ -47,6 +47,7 @@ Target serialized();
 Target measured();
 /// Profiles of luminaires, asked for what they send into some directions.
 Target profiles();
+Target volumes();
 /// Pictures of the usual kinds, and of the others.
 Target pictures();
 Target rare_pictures();
@@ -92,11 +93,11 @@ Target pasts();
 Target words();
 
 inline std::vector<Target> all_targets() {
-    return {packets(),      scenes(),        meshes(),   texts(),         mitsuba(),   gltf(),
-            obj(),          serialized(),    pictures(), films(),         manifests(), jobs(),
-            checkpoints(),  graphs(),        keys(),     gates(),         watched(),   rays_pbrt(),
-            rays_mitsuba(), rays_gltf(),     rays_obj(), customs(),       kept(),      pasts(),
-            words(),        conversations(), lines(),    rare_pictures(), measured(),  profiles()};
+    return {packets(),    scenes(),   meshes(),  texts(),     mitsuba(),       gltf(),        obj(),
+            serialized(), pictures(), films(),   manifests(), jobs(),          checkpoints(), graphs(),
+            keys(),       gates(),    watched(), rays_pbrt(), rays_mitsuba(),  rays_gltf(),   rays_obj(),
+            customs(),    kept(),     pasts(),   words(),     conversations(), lines(),       rare_pictures(),
+            measured(),   profiles(), volumes()};
 }
 
 }  // namespace lightnet::fuzz

@@ -91,7 +91,7 @@ TEST_F(Report, TellsWhatEachNodeDidInThreads) {
     const auto& sent = edge_between(told, "lighting", "bounce");
     EXPECT_EQ(sent["sent"], sent["questions"]);
     EXPECT_EQ(sent["bundles"], bounce["bundles"]) << "it alone asks there";
-    EXPECT_EQ(sent["bytes"].get<std::uint64_t>(), sent["sent"].get<std::uint64_t>() * (48 + 12));
+    EXPECT_EQ(sent["bytes"].get<std::uint64_t>(), sent["sent"].get<std::uint64_t>() * (56 + 12));
     const auto& called = edge_between(told, "lighting", "direct");
     EXPECT_EQ(called["sent"], 0);
     EXPECT_EQ(called["bytes"], 0);

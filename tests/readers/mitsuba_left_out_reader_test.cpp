@@ -211,11 +211,12 @@ INSTANTIATE_TEST_SUITE_P(Emitters, EveryParameter, testing::ValuesIn(of_emitters
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryParameter, testing::ValuesIn(of_shapes()));
 INSTANTIATE_TEST_SUITE_P(Sensors, EveryParameter, testing::ValuesIn(of_sensors()));
 
-TEST(MitsubaMedia, ThatScatterAreNamed) {
-    for (const std::string type : {"homogeneous", "heterogeneous"})
-        EXPECT_THAT(warnings_of(read("<shape type='sphere'><bsdf type='dielectric'/><medium name='interior' type='" +
-                                     type + "'/></shape>")),
-                    HasSubstr("<medium> is left out"));
+TEST(MitsubaMedia, OfUnknownTypesAreNamed) {
+    EXPECT_THAT(warnings_of(read("<shape type='sphere'><bsdf type='null'/><medium name='interior' type='homogenous'/>"
+                                 "</shape>")),
+                HasSubstr("medium 'homogenous' is not supported (did you mean 'homogeneous'?)"));
+    EXPECT_THAT(warnings_of(read("<shape type='sphere'/><medium type='homogeneous' id='fog'/>")),
+                HasSubstr("<medium> fills nothing"));
 }
 
 // Whole plugins that are not supported go by their names.

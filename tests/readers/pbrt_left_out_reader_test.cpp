@@ -49,8 +49,9 @@ INSTANTIATE_TEST_SUITE_P(
         LeftOut{"Film \"image\" \"float maxsampleluminance\" 10 WorldBegin", "'maxsampleluminance' is left out"},
         LeftOut{"Option \"bool forcediffuse\" true WorldBegin", "'forcediffuse' is left out"},
         LeftOut{"ActiveTransform StartTime Translate 1 0 0 WorldBegin", "motion is left out"},
-        LeftOut{"MakeNamedMedium \"m\" \"string type\" \"homogeneous\" WorldBegin", "participating media"},
-        LeftOut{"MediumInterface \"\" \"m\" Camera \"perspective\" WorldBegin", "it stands in a medium"}));
+        LeftOut{"MakeNamedMedium \"m\" \"string type\" \"nanovdb\" WorldBegin", "the space is taken as empty"},
+        LeftOut{"MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" \"Aple\" WorldBegin",
+                "did you mean 'Apple'?"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Colours, EveryThingLeftOut,
@@ -89,8 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
         LeftOut{
             "WorldBegin Material \"coateddiffuse\" \"rgb albedo\" [ .5 .5 .5 ] \"float g\" .1 \"integer nsamples\" 3",
             "scattering inside the coat"},
-        LeftOut{"WorldBegin Material \"subsurface\" \"rgb mfp\" [ 1 1 1 ] \"float scale\" 2",
-                "subsurface scattering is not supported"},
+        LeftOut{"WorldBegin Material \"subsurface\" \"string name\" \"Skin3\"", "did you mean 'Skin1'?"},
         LeftOut{"WorldBegin Material \"hair\" \"float eumelanin\" 1 \"float beta_m\" .1", "scattering by hair"},
         LeftOut{"WorldBegin Material \"measured\" \"string filename\" \"a.bsdf\"", "measured material 'a.bsdf'"},
         LeftOut{"Film \"image\" WorldBegin Material \"matte\" \"float sigma\" 20", "Oren and Nayar"},

@@ -128,7 +128,6 @@ TEST(PbrtMaterials, MayLetLightThroughEvenly) {
 
 TEST(PbrtMaterials, WithoutAMatchAreTheNearest) {
     const std::string lead = "scene.pbrt:2: Material ";
-    EXPECT_THAT(warnings_of(with("Material \"subsurface\"")), HasSubstr(lead + "'subsurface': subsurface scattering"));
     EXPECT_THAT(warnings_of(with("Material \"hair\"")), HasSubstr(lead + "'hair': scattering by hair"));
 }
 

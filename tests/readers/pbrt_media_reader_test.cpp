@@ -1,4 +1,4 @@
-// Media in pbrt's files: those that only absorb colour glass, others are left out.
+// Media in pbrt's files: those that only absorb colour glass, others fill space.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -58,12 +58,85 @@ TEST(PbrtMedia, LieOutsideWhereTheNormalPoints) {
     EXPECT_THAT(errors_of_world("MediumInterface \"\" \"none\" " + ball), HasSubstr("there is no medium 'none'"));
 }
 
-TEST(PbrtMedia, ThatScatterAreLeftOut) {
-    const auto scene = with(
-        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 1 1 1 ]\n"
-        "MediumInterface \"fog\" \"\"\nMaterial \"dielectric\"");
+TEST(PbrtMedia, ThatScatterFillSpace) {
+    const auto scene = read_text(
+        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 1 1 1 ] \"rgb sigma_s\" [ 3 1 0 ] "
+        "\"float g\" 0.5 \"float scale\" 2 \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 4\n"
+        "MediumInterface \"\" \"fog\" Camera \"perspective\"\nWorldBegin\n"
+        "MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" \"string preset\" \"Skimmilk\"\n"
+        "MediumInterface \"milk\" \"fog\" Material \"dielectric\" " +
+        ball + "MediumInterface \"fog\" Material \"interface\" " + ball + "MediumInterface \"fog\" \"\" " + ball);
+    ASSERT_EQ(scene.media.size(), 2u);
+    const Medium& fog = scene.media[0];
+    EXPECT_EQ(fog.extinction.value, (Rgb{8, 4, 2}));
+    EXPECT_EQ(fog.albedo_at({}), (Rgb{0.75f, 0.5f, 0}));
+    EXPECT_EQ(fog.phase.g, 0.5f);
+    EXPECT_EQ(fog.emission.value, (Rgb{8, 16, 24}));
+    EXPECT_FLOAT_EQ(scene.media[1].extinction.value.g, 1.2225f);
+    EXPECT_EQ(scene.around, 0);
+    ASSERT_EQ(scene.shapes.size(), 2u) << "what parts no media is left out";
+    EXPECT_EQ(scene.shapes[0].media->inside, 1);
+    EXPECT_EQ(scene.shapes[0].media->outside, 0);
     EXPECT_EQ(scene.materials[scene.shapes[0].material].absorption, (Rgb{0, 0, 0}));
-    EXPECT_THAT(warnings_of(scene), HasSubstr("scene.pbrt:2: participating media are not supported"));
+    EXPECT_EQ(scene.shapes[1].media->outside, Query::no_medium);
+    EXPECT_THAT(warnings_of(scene), HasSubstr("only bounds media, and is left out"));
+}
+
+// What only absorbs is in space where no glass holds it.
+TEST(PbrtMedia, ThatOnlyAbsorbFillSpaceWhereNoGlassHoldsThem) {
+    const auto scene = with(
+        "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 0 0 0 ]\n"
+        "MediumInterface \"ink\" \"\" Material \"interface\"");
+    ASSERT_EQ(scene.media.size(), 1u);
+    EXPECT_EQ(scene.media[0].extinction.value, (Rgb{1, 2, 3}));
+    EXPECT_EQ(scene.shapes.at(0).media->inside, 0);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(PbrtMedia, MayBeGrids) {
+    const auto scene = with(
+        "Translate 1 0 0 Scale 2 2 2\n"
+        "MakeNamedMedium \"smoke\" \"string type\" \"uniformgrid\" \"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 1 "
+        "\"float density\" [ 1 3 ] \"rgb sigma_a\" [ 1 1 1 ] \"rgb sigma_s\" [ 3 1 0 ] \"point3 p0\" [ -1 0 0 ]\n"
+        "MakeNamedMedium \"sky\" \"string type\" \"cloud\"\n"
+        "MakeNamedMedium \"dye\" \"string type\" \"rgbgrid\" \"integer nx\" 1 \"integer ny\" 1 \"integer nz\" 2 "
+        "\"rgb sigma_a\" [ 1 2 3 4 5 6 ] \"rgb sigma_s\" [ 1 2 3 4 5 6 ] \"float scale\" 2\n"
+        "MediumInterface \"smoke\" \"\" Material \"interface\"");
+    ASSERT_EQ(scene.media.size(), 3u);
+    const Medium& smoke = scene.media[0];
+    // the box is 4 m long, from x = -1 to 3; its points lie at 0 and at 2
+    EXPECT_EQ(smoke.extinction.at({0, 1, 1}), (Rgb{4, 2, 1}));
+    EXPECT_EQ(smoke.extinction.at({1, 1, 1}), (Rgb{8, 4, 2}));
+    EXPECT_EQ(smoke.extinction.at({-1, 1, 1}), (Rgb{2, 1, 0.5f})) << "it fades towards its rim";
+    EXPECT_EQ(smoke.albedo_at({0.5f, 1, 1}), (Rgb{0.75f, 0.5f, 0}));
+    float densest = 0;
+    for (const float density : scene.media[1].extinction.grid->values) densest = std::max(densest, density);
+    EXPECT_GT(densest, 0.9f);
+    EXPECT_LE(densest, 1.0f);
+    EXPECT_EQ(scene.media[2].extinction.grid->at({0.5f, 0.5f, 0.25f}) * scene.media[2].extinction.value.r,
+              (Rgb{4, 8, 12}));
+    EXPECT_THAT(scene.warnings, IsEmpty()) << warnings_of(scene);
+    EXPECT_THAT(errors_of_world("MakeNamedMedium \"smoke\" \"string type\" \"uniformgrid\" \"integer nx\" 2 \"float "
+                                "density\" [ 1 3 4 ]"),
+                HasSubstr("'density' has 3 numbers where nx, ny and nz ask for 2"));
+}
+
+TEST(PbrtSubsurface, FillsItsShapesWithAMedium) {
+    const auto scene = with(
+        "Material \"subsurface\" \"rgb reflectance\" [ .2 .5 .9 ] \"rgb mfp\" [ .5 1 2 ] \"float g\" .1 \"float eta\" "
+        "1.4");
+    const Medium& medium = scene.media.at(0);
+    EXPECT_EQ(medium.extinction.value, (Rgb{2, 1, 0.5f}));
+    const Rgb albedo = medium.albedo_at({});
+    EXPECT_NEAR(albedo.r, 0.6128f, 1e-3f);
+    EXPECT_NEAR(albedo.g, 0.9123f, 1e-3f);
+    EXPECT_NEAR(albedo.b, 0.9963f, 1e-3f);
+    EXPECT_EQ(scene.shapes.at(0).media->inside, 0);
+    EXPECT_EQ(model_of<DielectricMaterial>(scene).eta, 1.4f);
+    EXPECT_THAT(scene.warnings, IsEmpty()) << warnings_of(scene);
+    const auto skin = with("Material \"subsurface\" \"string name\" \"Skin1\" \"float scale\" 100");
+    EXPECT_NEAR(skin.media.at(0).extinction.value.r, 77.2f, 1e-3f);
+    EXPECT_NEAR(skin.media.at(0).albedo_at({}).b, 1.01f / 1.49f, 1e-5f);
 }
 
 }  // namespace

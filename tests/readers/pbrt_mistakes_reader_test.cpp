@@ -285,10 +285,11 @@ TEST(PbrtWarnings, NameShapesWithoutTriangles) {
 
 TEST(PbrtWarnings, AreCountedWhereTheyRepeat) {
     const auto scene = read_world(
-        "MakeNamedMedium \"mist\" \"string type\" \"homogeneous\"\nMakeNamedMedium \"fog\" \"string type\" "
-        "\"homogeneous\"");
+        "MakeNamedMedium \"mist\" \"string type\" \"nanovdb\"\nMakeNamedMedium \"fog\" \"string type\" "
+        "\"nanovdb\"");
     EXPECT_EQ(warnings_of(scene),
-              "scene.pbrt:2: participating media are not supported: the space is taken as empty (2 times)\n");
+              "scene.pbrt:2: a medium of type 'nanovdb' is not supported: the space is taken as empty (2 "
+              "times)\n");
 }
 
 TEST(PbrtWarnings, TellNewNamesOfOldTypes) {

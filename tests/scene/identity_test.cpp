@@ -88,6 +88,12 @@ SceneData room() {
     scene.lights = {PointLight{{0, 0, 1}, {1, 1, 1}},
                     SpotLight{{}, {0, 0, 1}, {1, 1, 1}, 0.1f, 0.2f, {}, {}, Slide{picture(0.5f)}},
                     DirectionalLight{{0, 0, -1}, {1, 1, 1}}};
+    Medium medium;
+    medium.extinction.grid = std::make_shared<const VolumeGrid>(VolumeGrid{.values = {0.5f}});
+    medium.phase.table = {1, 2};
+    medium.phase.parts = {{}};
+    scene.media = {medium};
+    scene.shapes[0].media = MediumSides{0, 1};
     return scene;
 }
 
@@ -135,7 +141,7 @@ public:
     void operator()(std::vector<T>& values) {
         for (T& value : values) (*this)(value);
         here([&] { values.emplace_back(); });
-        here([&] { values.pop_back(); });
+        if (!values.empty()) here([&] { values.pop_back(); });
     }
     template <class T, std::size_t n>
     void operator()(std::array<T, n>& values) {
@@ -149,6 +155,10 @@ public:
     void operator()(std::shared_ptr<const Measurement>& measurement) {
         here([&] { measurement = measured(0.5f); });
         here([&] { measurement = nullptr; });
+    }
+    void operator()(std::shared_ptr<const VolumeGrid>& grid) {
+        here([&] { grid = std::make_shared<const VolumeGrid>(VolumeGrid{.values = {0.25f}}); });
+        here([&] { grid = std::make_shared<const VolumeGrid>(VolumeGrid{.values = {0.5f}, .fades = true}); });
     }
     void operator()(std::monostate&) {}
 

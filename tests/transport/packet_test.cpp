@@ -106,7 +106,7 @@ TEST(Packet, BringsQuestionsBackBitForBit) {
 
 TEST(Packet, TakesAtMost48BytesPerQuestionAndAFewPerBundle) {
     const auto packed = packet::pack(light_ask(256), 0);
-    EXPECT_LE(packed.body.size() + packed.header.size(), 256 * sizeof(Query) + 192);
+    EXPECT_LE(packed.body.size() + packed.header.size(), 256 * 48 + 256);
 }
 
 TEST(Packet, WritesSmallNumbersInFewBytesAndEqualOnesOnce) {

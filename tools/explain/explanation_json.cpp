@@ -104,7 +104,7 @@ Tree sample_tree(const PixelAccount& account, const ExplainedSample& part) {
     for (const auto& asked : part.account.questions) {
         Tree& tree = questions.push_back(question_tree(asked, network.graph));
         tree["within"] = within_of(asked.within);
-        tree["surface"] = tree_of(named_surface(*network.scene, network.scene->hit(asked.question)));
+        tree["surface"] = tree_of(named_point(*network.scene, asked.question));
     }
     for (const auto& ray : part.account.rays) rays.push_back(ray_tree(ray, *network.scene));
     return {{"sample", part.sample},

@@ -65,15 +65,14 @@ private:
     }
 
     // What was named last need not be named again.
-    std::string where(const Hit& hit) {
-        const auto name = to_string(named_surface(scene_, hit));
-        return std::exchange(last_, name) == name ? "it" : name;
-    }
+    std::string where(const Hit& hit) { return unless_named(to_string(named_surface(scene_, hit))); }
+    std::string where(const Query& question) { return unless_named(to_string(named_point(scene_, question))); }
+    std::string unless_named(const std::string& name) { return std::exchange(last_, name) == name ? "it" : name; }
 
     void tell_question(std::size_t index, std::size_t level) {
         const auto& asked = account_.questions[index];
         line(level, fmt::format("{} asks {} about {}: {}", graph_.nodes[asked.asker].name,
-                                graph_.nodes[asked.asked].name, where(scene_.hit(asked.question)), answer_of(asked)));
+                                graph_.nodes[asked.asked].name, where(asked.question), answer_of(asked)));
         while (belongs_to(index)) tell_next(level + 1);
     }
 

@@ -27,6 +27,18 @@ NamedSurface named_surface(const Scene& scene, const Hit& hit) {
     return named;
 }
 
+NamedSurface named_point(const Scene& scene, const Query& question) {
+    if (!question.is_in_space()) return named_surface(scene, scene.hit(question));
+    const auto& media = scene.data().media;
+    const Medium* medium = question.medium < media.size() ? &media[question.medium] : nullptr;
+    const bool has_name = medium && !medium->name.empty();
+    NamedSurface named;
+    named.position = question.place_in_space();
+    named.shape = has_name ? printable(medium->name) : fmt::format("medium {}", question.medium);
+    named.material = "a collision in a medium";
+    return named;
+}
+
 std::string to_string(Vec3 position) {
     return fmt::format("{:.5g}, {:.5g}, {:.5g}", position.x, position.y, position.z);
 }

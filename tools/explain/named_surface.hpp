@@ -15,8 +15,10 @@ struct NamedSurface {
     Vec3 position;
 };
 
-/// What a ray has met, or a question is about.
+/// What a ray has met.
 NamedSurface named_surface(const Scene& scene, const Hit& hit);
+/// What a question is about: a surface, or a collision in a medium.
+NamedSurface named_point(const Scene& scene, const Query& question);
 
 /// "floor (white) at 1, 2, 3"
 std::string to_string(const NamedSurface& surface);

@@ -36,7 +36,9 @@ constexpr std::array columns<Query>{Column{"stream", offsetof(Query, stream), 8}
                                     Column{"uv", offsetof(Query, u), 8},
                                     Column{"outgoing", offsetof(Query, outgoing), 12},
                                     Column{"sample", offsetof(Query, sample), 4, true},
-                                    Column{"flags", offsetof(Query, lobes), 4, true}};
+                                    Column{"flags", offsetof(Query, lobes), 4, true},
+                                    Column{"medium", offsetof(Query, time), 4, true},  // and time
+                                    Column{"room", offsetof(Query, room), 4, true}};
 
 template <>
 constexpr std::array columns<Tile>{Column{"x", offsetof(Tile, x), 4},

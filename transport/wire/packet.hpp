@@ -14,7 +14,7 @@
 // nobody else can plan, end, feed or question it. Strangers are told 0.
 //
 // Every size is checked before anything is allocated, and a packet that breaks a rule is dropped and counted.
-// Version 1. A peer of another version is refused at HELLO, with a text that names both.
+// Version 2. A peer of another version is refused at HELLO, with a text that names both.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@
 namespace lightnet::packet {
 
 inline constexpr std::uint32_t magic = 0x54454e4c;  // "LNET"
-inline constexpr std::uint16_t version = 1;
+inline constexpr std::uint16_t version = 2;
 inline constexpr std::size_t header_size = 64;
 inline constexpr std::size_t most_bytes = 64 << 20;  // in one body
 

@@ -52,6 +52,20 @@ std::vector<Param> sky_fields() {
          .optional = true}};
 }
 
+std::vector<Param> fog_fields() {
+    return {{.name = "density", .help = "collisions of light per scene unit", .unit = "1 / scene unit", .least = 0},
+            {.name = "albedo",
+             .type = ParamType::numbers,
+             .help = "share of them that scatters: red, green, blue; 1 by default",
+             .optional = true,
+             .count = 3},
+            {.name = "g",
+             .help = "mean cosine of directions (Henyey and Greenstein): 0 by default, above it light goes on ahead",
+             .least = -0.99,
+             .most = 0.99,
+             .optional = true}};
+}
+
 Kind scene_kind() {
     Kind kind;
     kind.name = "Scene";
@@ -77,6 +91,11 @@ Kind scene_kind() {
          .help = "a clear sky in daytime and its sun, instead of what the file has around the scene",
          .optional = true,
          .fields = sky_fields()},
+        {.name = "fog",
+         .type = ParamType::table,
+         .help = "fills all space with fog, but for the inside of solid glass and of what the file fills by itself",
+         .optional = true,
+         .fields = fog_fields()},
         {.name = "environment_scale", .help = "times what is around the scene", .initial = Value{1.0}, .least = 0},
         {.name = "exposure",
          .help = "how many times the image becomes twice as bright",

@@ -5,6 +5,11 @@
 namespace lightnet {
 
 std::string describe(const Query& query) {
+    if (query.is_in_space()) {
+        const Vec3 at = query.place_in_space();
+        return fmt::format("question at ({:g}, {:g}, {:g}) in medium {}, sample {} of stream {:#x}, depth {}", at.x,
+                           at.y, at.z, query.medium, query.sample, query.stream, query.depth);
+    }
     const auto instance =
         query.instance == Query::no_instance ? std::string() : fmt::format("instance {}, ", query.instance);
     return fmt::format("question at {}shape {}, primitive {}, uv ({:g}, {:g}), sample {} of stream {:#x}, depth {}",

@@ -12,7 +12,7 @@ namespace {
 auto rank_of(const Query& q) {
     const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
     return std::tuple(q.stream, q.sample, q.instance, q.geometry, q.primitive, bits(q.u), bits(q.v), bits(q.outgoing.x),
-                      bits(q.outgoing.y), bits(q.outgoing.z), q.lobes, q.depth);
+                      bits(q.outgoing.y), bits(q.outgoing.z), q.lobes, q.depth, q.time, q.medium);
 }
 
 }  // namespace

@@ -21,7 +21,11 @@ namespace {
 class Builder {
 public:
     explicit Builder(const Context& context)
-        : context_(context), textures_(context), bsdfs_(textures_), shapes_(bsdfs_, textures_) {}
+        : context_(context),
+          textures_(context),
+          bsdfs_(textures_),
+          media_(context),
+          shapes_(bsdfs_, textures_, media_) {}
 
     void add(const Node& node) {
         static const std::set<std::string, std::less<>> silent{"integrator", "sampler", "film", "rfilter",
@@ -34,7 +38,7 @@ public:
         if (silent.contains(node.tag) || node.name == "scene_scale") return;
         if (parts.contains(node.tag) && context_.document.lent.contains(node.id)) return;  // said where it is lent to
         if (node.tag == "medium")
-            context_.warn(node, "<medium> is left out: light is not scattered inside of things");
+            context_.warn(node, "<medium> fills nothing: no shape names it");
         else
             unknown(node);
     }
@@ -62,6 +66,10 @@ private:
         const CameraData camera = scene.camera;
         const FilmData film = scene.film;
         depths_.push_back(set_sensor(node, context_));
+        for (const auto& child : node.children)
+            if (child->tag == "medium" || child->tag == "ref")
+                if (const Node* target = context_.resolved(*child); target && target->tag == "medium")
+                    scene.around = media_.made(*target);
         scene.cameras.push_back({node.id, scene.camera, scene.film});
         if (scene.cameras.size() > 1) scene.camera = camera, scene.film = film;
     }
@@ -79,6 +87,7 @@ private:
     const Context& context_;
     Textures textures_;
     Bsdfs bsdfs_;
+    Media media_;
     Shapes shapes_;
     std::vector<SensorDepth> depths_;  // by camera
     std::string first_unknown_;

@@ -80,7 +80,7 @@ Properties::~Properties() {
     for (const auto& child : node_.children) {
         if (asked_.contains(child.get())) continue;
         if (objects.contains(child->tag))
-            context_.warn(*child, fmt::format("<{}> is left out: light is not scattered inside of things", child->tag));
+            context_.warn(*child, fmt::format("<{}> is left out of {}", child->tag, owner()));
         else if (child->tag == "ref" || child->tag == "bsdf" || child->tag == "texture" || child->name.empty())
             context_.warn(*child,
                           fmt::format("<{}{}> is left out of {}", child->tag,

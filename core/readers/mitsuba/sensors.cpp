@@ -95,7 +95,7 @@ Vec3 take_scale(Matrix& t) {
 SensorDepth set_sensor(const Node& node, const Context& context) {
     Properties properties(node, context);
     properties.ignore({"shutter_open", "shutter_close"});
-    properties.objects("sampler"), properties.objects("rfilter");
+    properties.objects("sampler"), properties.objects("rfilter"), properties.objects("medium");
     const SensorDepth depth{properties.number("near_clip", 1e-2f), properties.number("far_clip", 1e4f)};
     SceneData& scene = context.assets.scene();
     scene.film = film_of(properties);

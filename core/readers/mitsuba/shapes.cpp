@@ -61,7 +61,7 @@ std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
     auto geometry = this->geometry(properties);
     auto emission = this->emission(properties);
     MaterialId material = this->material(properties, emission.has_value());
-    absorb(properties, material);
+    const auto media = absorb(properties, material) ? std::nullopt : media_.sides(properties);
     if (emission && in_group) {
         context_.warn(node, "lamps inside of a shapegroup are left out");
         emission.reset();
@@ -74,7 +74,7 @@ std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
     }
     auto& scene = context_.assets.scene();
     scene.shapes.push_back({std::move(*geometry), material, emission, node.where,
-                            node.id.empty() ? stem_of(properties.text("filename", "")) : node.id});
+                            node.id.empty() ? stem_of(properties.text("filename", "")) : node.id, media});
     return static_cast<std::uint32_t>(scene.shapes.size() - 1);
 }
 
@@ -267,28 +267,29 @@ std::optional<AreaEmission> Shapes::emission(Properties& properties) {
     return emission;
 }
 
-/// A medium that only absorbs colours the light inside of its glass; others are left out.
-void Shapes::absorb(Properties& properties, MaterialId& id) {
+/// A medium that only absorbs colours the light inside of its glass. Is it one? Others are media in space.
+bool Shapes::absorb(Properties& properties, MaterialId& id) {
     for (const auto& child : properties.node().children) {
         const Node* medium = child->tag == "medium" || child->tag == "ref" ? context_.resolved(*child) : nullptr;
         if (!medium || medium->tag != "medium" || child->name != "interior" || medium->type != "homogeneous") continue;
         Properties inside(*medium, context_);
         inside.ignore_all();
         for (const char* name : {"sigma_t", "albedo", "sigma_a", "sigma_s", "scale"})
-            if (const Node* given = inside.find(name); given && !is_colour(*given)) return;
+            if (const Node* given = inside.find(name); given && !is_colour(*given)) return false;
         const bool by_parts = inside.has("sigma_a");
         const Rgb scattered =
             surface_of(inside, by_parts ? "sigma_s" : "albedo", by_parts ? Rgb{1, 1, 1} : Rgb{0.75f, 0.75f, 0.75f}).rgb;
-        if (!is_black(scattered)) return;
+        if (!is_black(scattered)) return false;
         const Rgb absorbed =
             surface_of(inside, by_parts ? "sigma_a" : "sigma_t", {1, 1, 1}).rgb * inside.number("scale", 1);
         Material copy = context_.assets.scene().materials[id];
-        if (!std::holds_alternative<DielectricMaterial>(copy.model)) return;
+        if (!std::holds_alternative<DielectricMaterial>(copy.model)) return false;
         properties.find("interior");
         copy.absorption = absorbed;
         id = context_.assets.add(std::move(copy));
-        return;
+        return true;
     }
+    return false;
 }
 
 void Shapes::instance(Properties& properties) {

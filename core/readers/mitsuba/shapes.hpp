@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "core/readers/mitsuba/bsdfs.hpp"
+#include "core/readers/mitsuba/media.hpp"
 
 namespace lightnet::mitsuba {
 
 /// Adds the shapes of one scene to it.
 class Shapes {
 public:
-    Shapes(Bsdfs& bsdfs, Textures& textures) : bsdfs_(bsdfs), textures_(textures), context_(textures.context()) {}
+    Shapes(Bsdfs& bsdfs, Textures& textures, Media& media)
+        : bsdfs_(bsdfs), textures_(textures), media_(media), context_(textures.context()) {}
 
     /// A <shape> that stands in the scene: with its bsdf and its lamp, or an instance.
     void add(const Node& node);
@@ -34,12 +36,13 @@ private:
     std::optional<std::uint32_t> shape(const Node& node, bool in_group);
     MaterialId material(Properties& properties, bool lamp);
     std::optional<AreaEmission> emission(Properties& properties);
-    void absorb(Properties& properties, MaterialId& id);
+    bool absorb(Properties& properties, MaterialId& id);
     void instance(Properties& properties);
     std::optional<std::uint32_t> group(const Node& node);
 
     Bsdfs& bsdfs_;
     Textures& textures_;
+    Media& media_;
     const Context& context_;
     std::map<const Node*, std::uint32_t> groups_;  // → objects of the scene
     std::uint64_t size_ = 0;                       // so far, in triangles

@@ -28,20 +28,6 @@ Part part_of(const std::string& directive) {
     return found == parts.end() ? Part::anywhere : found->second;
 }
 
-constexpr const char* no_media = "participating media are not supported: the space is taken as empty";
-
-/// What a medium absorbs per metre; none: it scatters light or sends it out, too.
-std::optional<Rgb> absorption_of(Parameters& parameters, const Sources& sources) {
-    const Parameter* absorbed = parameters.find("sigma_a");
-    const Parameter* scattered = parameters.find("sigma_s");
-    const bool homogeneous = parameters.text("type", "") == "homogeneous";
-    if (!homogeneous || !absorbed || !scattered || parameters.find("Le") || parameters.find("preset")) return {};
-    const auto left = surface_of(*absorbed, Use::index, sources), aside = surface_of(*scattered, Use::index, sources);
-    if (!left || !aside || !is_black(aside->rgb)) return {};
-    const Rgb each = left->rgb * parameters.number("scale", 1);
-    return finite(each) && each.r >= 0 && each.g >= 0 && each.b >= 0 ? std::optional(each) : std::nullopt;
-}
-
 }  // namespace
 
 Builder::Builder(const Sources& sources)
@@ -49,7 +35,8 @@ Builder::Builder(const Sources& sources)
       pictures_(sources_, thread_pool_),
       textures_(sources_, scene_, pictures_),
       measurements_(sources_.report),
-      shapes_(sources_, thread_pool_) {
+      shapes_(sources_, thread_pool_),
+      media_(sources_, scene_) {
     scene_.film.width = sources_.older() ? 640 : 1280, scene_.film.height = sources_.older() ? 480 : 720;
     Material grey;
     grey.model = DiffuseMaterial{textures_.constant({0.5f, 0.5f, 0.5f}), 0, std::nullopt};
@@ -269,7 +256,7 @@ void Builder::older_business(Statement& s) {
 
 void Builder::volume(Statement& s) {
     older_business(s);
-    sources_.report.warn(s.where, no_media);
+    sources_.report.warn(s.where, "participating media of version 2 are not supported: the space is taken as empty");
 }
 
 void Builder::option(Statement& s) {
@@ -281,10 +268,7 @@ void Builder::option(Statement& s) {
 void Builder::ignored(Statement&) {}
 
 void Builder::make_named_medium(Statement& s) {
-    const auto absorbed = absorption_of(s.parameters, sources_);
-    s.parameters.ignore_all();
-    if (!absorbed) sources_.report.warn(s.where, no_media);
-    if (!media_.try_emplace(s.names[0], absorbed).second)
+    if (!media_.define(s.names[0], state_.to_world, s.parameters))
         s.parameters.error(fmt::format("there is a medium '{}' already", s.names[0]));
 }
 
@@ -313,8 +297,8 @@ void Builder::camera(Statement& s) {
     scene_.camera = shot.camera;
     scene_.camera.where = s.where;
     scene_.camera_given = true;
-    if (!state_.outside.empty())
-        s.parameters.warn("it stands in a medium, which is left out: what it sees lies in empty space");
+    around_ = state_.outside;
+    around_where_ = s.where;
     exposure_ = shot.exposure;
     systems_["camera"] = *to_world;
 }

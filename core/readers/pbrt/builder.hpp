@@ -15,6 +15,7 @@
 #include "core/readers/pbrt/camera.hpp"
 #include "core/readers/pbrt/colour_space.hpp"
 #include "core/readers/pbrt/lights.hpp"
+#include "core/readers/pbrt/media.hpp"
 #include "core/readers/pbrt/pictures.hpp"
 #include "core/readers/pbrt/shapes.hpp"
 #include "core/readers/pbrt/sources.hpp"
@@ -136,7 +137,10 @@ private:
     void finish_shapes();
     void finish_shape(WaitingShape& waiting);
     MaterialId with_alpha(MaterialId material, TextureId alpha);
-    Rgb absorbed_in(const std::string& medium, const SourceLine& where);
+    void find_media();
+    void check_medium(const std::string& name, const SourceLine& where);
+    std::optional<MediumSides> sides_of(const WaitingShape& waiting) const;
+    std::uint16_t filling_of(MaterialId material) const;
     MaterialId filled(MaterialId material, const WaitingShape& waiting);
     void emit(Shape shape, const WaitingShape& waiting);
     void add_shape(Shape shape, const std::optional<std::uint32_t>& object);
@@ -158,7 +162,10 @@ private:
     std::vector<MaterialUse> uses_;
     std::map<std::string, std::size_t> named_;  // index into uses_
     std::map<std::pair<MaterialId, TextureId>, MaterialId> with_alpha_;
-    std::map<std::string, std::optional<Rgb>> media_;  // what they absorb, per metre; none: they do more than that
+    Media media_;
+    std::map<MaterialId, std::uint16_t> fillings_;  // media that materials bring along
+    std::string around_;                            // name of the camera's medium
+    SourceLine around_where_;
     std::map<std::tuple<MaterialId, std::string, std::string, bool>, MaterialId> filled_;
     std::map<std::string, std::uint32_t> objects_;
     std::optional<std::uint32_t> open_object_;

@@ -39,6 +39,7 @@ void Builder::check_uses() {
 void Builder::finish_shapes() {
     if (shapes_.budget().exceeded())
         sources_.report.error({sources_.main, 0}, "the scene has more than 2^27 vertices and triangles");
+    find_media();
     for (auto& waiting : waiting_) {
         if (sources_.report.full()) return;
         finish_shape(waiting);
@@ -57,10 +58,13 @@ void Builder::finish_shape(WaitingShape& waiting) {
     if (std::holds_alternative<NoMaterial>(scene_.materials[material].model)) {
         if (waiting.lamp)
             sources_.report.warn(waiting.where, "a lamp with the material 'interface' doesn't shine (as in pbrt)");
-        return sources_.report.warn(waiting.where,
-                                    "a shape of the material 'interface' only bounds media, and is left out");
+        if (!sides_of(waiting))
+            return sources_.report.warn(waiting.where,
+                                        "a shape of the material 'interface' only bounds media, and is left out");
+        waiting.lamp.reset();
     }
     Shape shape;
+    shape.media = sides_of(waiting);
     shape.geometry = std::move(*made.geometry);
     shape.material = waiting.alpha ? with_alpha(material, *waiting.alpha) : material;
     shape.where = waiting.where;
@@ -71,19 +75,48 @@ void Builder::finish_shape(WaitingShape& waiting) {
         add_shape(std::move(shape), waiting.object);
 }
 
-/// Per metre. Black of what was told where it was made.
-Rgb Builder::absorbed_in(const std::string& medium, const SourceLine& where) {
-    if (medium.empty()) return {};
-    const auto found = media_.find(medium);
-    if (found == media_.end()) sources_.report.error(where, fmt::format("there is no medium '{}'", medium));
-    return found == media_.end() ? Rgb{} : found->second.value_or(Rgb{});
+void Builder::check_medium(const std::string& name, const SourceLine& where) {
+    if (!name.empty() && !media_.has(name))
+        sources_.report.error(where,
+                              fmt::format("there is no medium '{}'{}", name, did_you_mean(name, media_.names())));
+}
+
+/// Before shapes are finished: in which media somebody stands, and which are bounded by nothing but themselves.
+void Builder::find_media() {
+    check_medium(around_, around_where_);
+    media_.be_space(around_);
+    scene_.around = media_.index(around_);
+    for (const WaitingShape& waiting : waiting_) {
+        check_medium(waiting.inside, waiting.where);
+        check_medium(waiting.outside, waiting.where);
+        const auto& material = uses_[waiting.material].made;
+        if (!material || !std::holds_alternative<NoMaterial>(scene_.materials[*material].model)) continue;
+        media_.be_space(waiting.inside);
+        media_.be_space(waiting.outside);
+    }
+}
+
+/// Of a mixture, that of the first part that has one.
+std::uint16_t Builder::filling_of(MaterialId material) const {
+    const auto found = fillings_.find(material);
+    if (found != fillings_.end()) return found->second;
+    const auto* mixture = std::get_if<MixtureMaterial>(&scene_.materials[material].model);
+    if (!mixture) return Query::no_medium;
+    const std::uint16_t first = filling_of(mixture->first);
+    return first != Query::no_medium ? first : filling_of(mixture->second);
+}
+
+std::optional<MediumSides> Builder::sides_of(const WaitingShape& waiting) const {
+    MediumSides sides{media_.index(waiting.inside), media_.index(waiting.outside)};
+    const std::uint16_t filling = filling_of(*uses_[waiting.material].made);
+    if (filling != Query::no_medium) sides.inside = filling;
+    return sides.inside == sides.outside ? std::nullopt : std::optional(sides);
 }
 
 /// A copy of solid glass between media of which one absorbs, or both. As in pbrt the outside is where the normal
 /// points, which may be the hollow of the shape. Elsewhere there is no medium for light.
 MaterialId Builder::filled(MaterialId material, const WaitingShape& waiting) {
-    const Rgb inside = absorbed_in(waiting.inside, waiting.where),
-              outside = absorbed_in(waiting.outside, waiting.where);
+    const Rgb inside = media_.absorbed_in(waiting.inside), outside = media_.absorbed_in(waiting.outside);
     const Transparency lets_through = transparency_of(scene_.materials[material]);
     if (lets_through == Transparency::opaque || (is_black(inside) && is_black(outside))) return material;
     const auto* glass = std::get_if<DielectricMaterial>(&scene_.materials[material].model);
@@ -141,7 +174,7 @@ void Builder::emit(Shape shape, const WaitingShape& waiting) {
         return add_shape(std::move(shape), std::nullopt);
     }
     for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
-        Shape one{single(*mesh, i), shape.material, std::nullopt, shape.where, shape.name};
+        Shape one{single(*mesh, i), shape.material, std::nullopt, shape.where, shape.name, shape.media};
         one.emission = lamp.on(area_of(one.geometry));
         add_shape(std::move(one), std::nullopt);
     }

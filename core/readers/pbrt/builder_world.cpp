@@ -24,15 +24,19 @@ Material Builder::material_of(const std::string& type, Parameters& parameters) {
         const std::string path = sources_.path(name);
         return measurements_.get(path, where, [&] { return sources_.files.read(path); });
     };
+    // whoever asked puts it at the end of the scene's
+    const auto fill = [&](Medium medium) {
+        fillings_[static_cast<MaterialId>(scene_.materials.size())] = media_.add(std::move(medium));
+    };
     Material material;
     if (sources_.older()) {
         const auto add = [&](Material part) {
             scene_.materials.push_back(std::move(part));
             return static_cast<MaterialId>(scene_.materials.size() - 1);
         };
-        material = make_older_material(type, parameters, {{textures_, find, measured}, add});
+        material = make_older_material(type, parameters, {{textures_, find, measured, fill}, add});
     } else {
-        material = make_material(type, parameters, {textures_, find, measured});
+        material = make_material(type, parameters, {textures_, find, measured, fill});
     }
     parameters.warn_unused();
     return material;

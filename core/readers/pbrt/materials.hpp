@@ -19,6 +19,8 @@ struct MaterialSources {
     std::function<std::optional<MaterialId>(const std::string&)> named;
     /// What a file of that name says that was measured; null: it can't be had, and a warning says so.
     std::function<std::shared_ptr<const Measurement>(const std::string& file, const SourceLine& where)> measured;
+    /// Says what fills the shapes of the material that is being made.
+    std::function<void(Medium)> fill;
 };
 
 /// The material of that type. Where a scene has nothing like it, the nearest is taken, with a warning. An unknown type

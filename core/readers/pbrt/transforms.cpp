@@ -65,30 +65,6 @@ Matrix by_columns(std::span<const double, 16> numbers) {
     return matrix;
 }
 
-std::optional<Matrix> inverse(const Matrix& matrix) {
-    auto a = matrix.m;
-    Matrix result;
-    auto& b = result.m;
-    for (int column = 0; column < 4; ++column) {
-        int pivot = column;
-        for (int row = column + 1; row < 4; ++row)
-            if (std::fabs(a[row][column]) > std::fabs(a[pivot][column])) pivot = row;
-        if (!(std::fabs(a[pivot][column]) > 0)) return std::nullopt;
-        std::swap(a[pivot], a[column]);
-        std::swap(b[pivot], b[column]);
-        const double d = 1 / a[column][column];
-        for (int k = 0; k < 4; ++k) a[column][k] *= d, b[column][k] *= d;
-        for (int row = 0; row < 4; ++row) {
-            const double f = row == column ? 0 : a[row][column];
-            for (int k = 0; k < 4; ++k) a[row][k] -= f * a[column][k], b[row][k] -= f * b[column][k];
-        }
-    }
-    for (const auto& row : b)
-        for (const double value : row)
-            if (!std::isfinite(value)) return std::nullopt;
-    return result;
-}
-
 std::optional<double> uniform_scale(const Matrix& matrix) {
     std::array<Triple, 3> columns;
     for (int j = 0; j < 3; ++j) columns[j] = {matrix.m[0][j], matrix.m[1][j], matrix.m[2][j]};

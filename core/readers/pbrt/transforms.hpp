@@ -6,6 +6,7 @@
 
 #include "core/base/math/transform.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/readers/common/inverse.hpp"
 
 namespace lightnet::pbrt {
 
@@ -17,8 +18,6 @@ std::optional<Matrix> rotation(double degrees, double x, double y, double z);
 std::optional<Matrix> look_at(std::span<const double, 9> numbers);
 /// From 16 numbers, column after column, as pbrt writes them.
 Matrix by_columns(std::span<const double, 16> numbers);
-/// None: singular.
-std::optional<Matrix> inverse(const Matrix& matrix);
 /// The factor by which it scales lengths, if that is the same in all directions (within rounding of the file).
 std::optional<double> uniform_scale(const Matrix& matrix);
 

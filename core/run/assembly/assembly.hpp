@@ -102,7 +102,8 @@ public:
                 &not_finite_[node],
                 &unsound_[node],
                 gauge_,
-                Gauge::at(node)};
+                Gauge::at(node),
+                network_.kind_of(node).light.space};
     }
     /// Answers that were infinite or no numbers, by name of the node; nodes that gave none are left out.
     std::map<std::string, std::uint64_t> not_finite() const { return by_name(not_finite_); }

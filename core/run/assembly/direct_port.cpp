@@ -29,7 +29,13 @@ void check_float_mode() {
 
 // Nodes need not be ready for what follows from numbers that are none.
 bool is_sound(const Query& question) {
-    return finite(question.outgoing) && std::isfinite(question.u) && std::isfinite(question.v);
+    return finite(question.outgoing) && std::isfinite(question.u) && std::isfinite(question.v) &&
+           (!question.is_in_space() || finite(question.place_in_space()));
+}
+
+// Has the node an answer? Most know surfaces only: what they would say of a point in a medium is black.
+bool is_for(const Callee& node, const Query& question) {
+    return is_sound(question) && (node.space || !question.is_in_space());
 }
 
 // Which question a node threw at: each is asked alone until it throws again. Empty: none is to blame.
@@ -38,7 +44,7 @@ std::string culprit(const Callee& node, std::span<const Query> questions) {
     std::string found;
     for (const auto& question : questions) {
         end_if_unwanted();
-        if (!is_sound(question)) continue;
+        if (!is_for(node, question)) continue;
         try {
             node.light.light({&question, 1}, answer);
         } catch (const std::exception&) {
@@ -68,12 +74,13 @@ void answer_all(const Callee& node, std::size_t width, std::span<const Query> qu
     }
 }
 
-void answer_sound(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) {
+void answer_some(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) {
     std::vector<std::size_t> which;
     std::vector<Query> sound;
-    for (std::size_t q = 0; q < questions.size(); ++q)
-        if (is_sound(questions[q])) which.push_back(q), sound.push_back(questions[q]);
-    if (node.unsound) *node.unsound += questions.size() - sound.size();
+    for (std::size_t q = 0; q < questions.size(); ++q) {
+        if (node.unsound) *node.unsound += !is_sound(questions[q]);
+        if (is_for(node, questions[q])) which.push_back(q), sound.push_back(questions[q]);
+    }
     std::fill(answers.begin(), answers.end(), Rgb{});
     if (sound.empty()) return;
     std::vector<Rgb> some(sound.size() * width);
@@ -102,10 +109,10 @@ Port::Ticket DirectPort::begin(std::span<const Query> questions, std::span<Rgb> 
 }
 
 void answer(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) try {
-    if (std::all_of(questions.begin(), questions.end(), is_sound))
+    if (std::all_of(questions.begin(), questions.end(), [&](const Query& q) { return is_for(node, q); }))
         answer_all(node, width, questions, answers);
     else
-        answer_sound(node, width, questions, answers);
+        answer_some(node, width, questions, answers);
     check_float_mode();
     if (node.not_finite)
         for (const Rgb& colour : answers) *node.not_finite += !finite(colour);

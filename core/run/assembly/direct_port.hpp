@@ -21,6 +21,7 @@ struct Callee {
     std::uint64_t* unsound = nullptr;     // counts questions whose numbers are not finite
     Gauge* gauge = nullptr;               // of the place: says when it is at work
     Gauge::Doing doing = Gauge::asking;   // what it then says
+    bool space = true;                    // it answers about points in media, too
 };
 
 /// Calls the node. Long asks are cut into chunks, between which the place may look at its sockets; an answer does not

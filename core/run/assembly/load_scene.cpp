@@ -46,6 +46,14 @@ SkyOverride sky_override(const Values& sky) {
     return wanted;
 }
 
+FogOverride fog_override(const Values& fog) {
+    FogOverride wanted;
+    wanted.density = number(fog, "density").value_or(0);
+    if (const auto albedo = point(fog, "albedo")) wanted.albedo = {albedo->x, albedo->y, albedo->z};
+    wanted.g = number(fog, "g").value_or(0);
+    return wanted;
+}
+
 }  // namespace
 
 SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
@@ -65,6 +73,8 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     }
     if (const auto sky = params.find("sky"); sky != params.end())
         overrides.sky = sky_override(std::get<Table>(sky->second.data).named);
+    if (const auto fog = params.find("fog"); fog != params.end())
+        overrides.fog = fog_override(std::get<Table>(fog->second.data).named);
     overrides.environment_scale = number(params, "environment_scale").value_or(1);
     overrides.exposure = number(params, "exposure").value_or(0);
     overrides.clay = params.contains("material");

@@ -58,6 +58,7 @@ bool Bsdf::any_is_opaque() const {
 
 BsdfValue Bsdf::value_of_any(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
     if (parts_) return blended_value(outgoing, incoming, lobes);
+    if (const auto* phase = std::get_if<PhaseBsdf>(&model_)) return phase->evaluate(outgoing, incoming, lobes);
     if (one_sided_ && dot(outgoing, normal_) <= 0) return {};
     const Frame frame = frame_for(outgoing);
     const Vec3 o = frame.to_local(outgoing), i = frame.to_local(incoming);
@@ -67,6 +68,7 @@ BsdfValue Bsdf::value_of_any(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) c
 
 std::optional<BsdfSample> Bsdf::sample_of_any(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
     if (parts_) return blended_sample(outgoing, choice, u, lobes);
+    if (const auto* phase = std::get_if<PhaseBsdf>(&model_)) return phase->sample(outgoing, choice, u, lobes);
     if (one_sided_ && dot(outgoing, normal_) <= 0) return {};
     const Frame frame = frame_for(outgoing);
     const Vec3 o = frame.to_local(outgoing);

@@ -15,6 +15,7 @@
 #include "core/base/math/vec.hpp"
 #include "core/base/query.hpp"
 #include "core/scene/bsdf/material.hpp"
+#include "core/scene/bsdf/phase.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 
 namespace lightnet {
@@ -27,14 +28,18 @@ inline constexpr std::array<bool, sizeof...(Models)> choosing<std::variant<Model
 
 /// Scattering at one point, textures already looked up. A value: make it, use it, drop it. Both directions are unit,
 /// in world space and point away from the surface. Reflection stays on the geometric normal's side of the surface and
-/// transmission goes to the other one, whatever the shading normal says, so that no light leaks.
+/// transmission goes to the other one, whatever the shading normal says, so that no light leaks. At a point in a medium
+/// it is the phase function, times the albedo; there is no normal then, and no side.
 class Bsdf {
 public:
-    using Model = ModelsOf<AnyMaterial>::type;
+    /// Those of materials, and that of a point in a medium.
+    using Model = ModelsWith<ModelsOf<AnyMaterial>::type, PhaseBsdf>::type;
     /// Some share of a surface; seen from one of its sides only, or from both.
     struct Part;
 
     Bsdf(const Frame& shading, Vec3 normal, const Model& model) : shading_(shading), normal_(normal), model_(model) {}
+    /// Of a collision in a medium, where there is no normal.
+    explicit Bsdf(const PhaseBsdf& phase) : shading_{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, model_(phase) {}
     /// A blend of others, one at least, whose shares sum up to 1 on each side.
     Bsdf(Vec3 normal, std::vector<Part> parts);
 

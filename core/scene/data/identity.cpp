@@ -67,6 +67,7 @@ public:
         add(hash->bytes);
     }
 
+    void add(const std::shared_ptr<const VolumeGrid>& grid) { add(grid ? grid->content().bytes : Hash{}.bytes); }
     void add(const std::shared_ptr<const Measurement>& measured) {
         add(measured ? measured->content().bytes : Hash{}.bytes);
     }

@@ -13,8 +13,10 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/transform.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/base/query.hpp"
 #include "core/scene/bsdf/material.hpp"
 #include "core/scene/camera/camera_data.hpp"
+#include "core/scene/media/medium.hpp"
 #include "core/scene/shapes/shape.hpp"
 #include "core/scene/textures/texture.hpp"
 
@@ -39,16 +41,27 @@ void visit_members(Is<AreaEmission> auto& emission, const auto& visit) {
     visit(radiance, two_sided, texture, unseen);
 }
 
+/// Of which medium the space on both sides of a shape is full: indices into SceneData::media.
+struct MediumSides {
+    std::uint16_t inside = Query::no_medium;   // against its normal
+    std::uint16_t outside = Query::no_medium;  // where its normal points
+};
+void visit_members(Is<MediumSides> auto& sides, const auto& visit) {
+    auto& [inside, outside] = sides;
+    visit(inside, outside);
+}
+
 struct Shape {
     ShapeGeometry geometry;
     MaterialId material = 0;
     std::optional<AreaEmission> emission{};
     SourceLine where;
-    std::string name{};  // as in the file, or that of its own file; may be empty
+    std::string name{};                  // as in the file, or that of its own file; may be empty
+    std::optional<MediumSides> media{};  // none: it parts no media
 };
 void visit_members(Is<Shape> auto& shape, const auto& visit) {
-    auto& [geometry, material, emission, where, name] = shape;
-    visit(geometry, material, emission);
+    auto& [geometry, material, emission, where, name, media] = shape;
+    visit(geometry, material, emission, media);
 }
 
 /// Shapes that stand in the scene only through instances of them.
@@ -202,6 +215,8 @@ struct SceneData {
     std::vector<BareLight> lights;              // that belong to no shape
     std::vector<std::string> groups{};          // of lamps, which their labels name by index; none: all are one
     std::uint32_t environment_group = 0;        // of all environments
+    std::vector<Medium> media{};                // fog, smoke, fire
+    std::uint16_t around = Query::no_medium;    // the medium where no shape says otherwise
     CameraData camera;
     bool camera_given = false;           // else Scene looks at everything from where all of it is seen
     std::vector<SceneCamera> cameras{};  // all of the file, where it may have several; the first one is `camera`
@@ -212,9 +227,9 @@ struct SceneData {
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
-    auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, camera,
-           camera_given, cameras, film, warnings, as_read, animations] = scene;
-    visit(shapes, objects, instances, materials, textures, environments, lights);
+    auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, media,
+           around, camera, camera_given, cameras, film, warnings, as_read, animations] = scene;
+    visit(shapes, objects, instances, materials, textures, environments, lights, media, around);
 }
 
 }  // namespace lightnet

@@ -6,13 +6,14 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/base/query.hpp"
 #include "core/scene/shapes/offset.hpp"
 #include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
 
 /// Derived from a Hit or a Query alone, so it's the same on every host. What no texture, groove or bump of the shape
-/// needs is left as it is here.
+/// needs is left as it is here. A point in a medium has a position alone, and `primitive` is the index of its medium.
 struct SurfacePoint {
     Vec3 position;               // world space
     Vec3 normal;                 // geometric, unit; the side on which a one-sided lamp shines
@@ -21,11 +22,12 @@ struct SurfacePoint {
     Vec2 second_uv{};            // of meshes that have two sets of them
     Rgb vertex_colour{1, 1, 1};  // of the mesh, interpolated
     Vec3 along_u, along_v;       // ∂position/∂u and ∂position/∂v, metres
-    std::uint32_t geometry = 0;  // index into the scene's shapes
+    std::uint32_t geometry = 0;  // index into the scene's shapes; Query::in_space: the point is on none
     std::uint32_t primitive = 0;
     float u = 0, v = 0;  // on the primitive, as in its Hit
     float offset = 0;    // metres: beyond the rounding errors of `position`
 
+    bool is_in_space() const { return geometry == Query::in_space; }
     /// Where a ray into `direction` starts: off the surface, on the side into which it goes.
     Vec3 origin_towards(Vec3 direction) const;
 };

@@ -1,0 +1,277 @@
+#include "core/readers/pbrt/media.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "core/base/suggestion.hpp"
+#include "core/readers/common/inverse.hpp"
+#include "core/scene/textures/noise.hpp"
+
+namespace lightnet::pbrt {
+namespace {
+
+const std::vector<std::string> known_media{"homogeneous", "uniformgrid", "rgbgrid", "cloud"};
+
+/// Reduced scattering and absorption per millimetre. Jensen et al. 2001, "A Practical Model for Subsurface Light
+/// Transport", figure 5.
+struct Preset {
+    std::string_view name;
+    Substance substance;
+};
+constexpr std::array<Preset, 12> presets{{{"Apple", {{2.29f, 2.39f, 1.97f}, {0.0030f, 0.0034f, 0.046f}}},
+                                          {"Chicken1", {{0.15f, 0.21f, 0.38f}, {0.015f, 0.077f, 0.19f}}},
+                                          {"Chicken2", {{0.19f, 0.25f, 0.32f}, {0.018f, 0.088f, 0.20f}}},
+                                          {"Cream", {{7.38f, 5.47f, 3.15f}, {0.0002f, 0.0028f, 0.0163f}}},
+                                          {"Ketchup", {{0.18f, 0.07f, 0.03f}, {0.061f, 0.97f, 1.45f}}},
+                                          {"Marble", {{2.19f, 2.62f, 3.00f}, {0.0021f, 0.0041f, 0.0071f}}},
+                                          {"Potato", {{0.68f, 0.70f, 0.55f}, {0.0024f, 0.0090f, 0.12f}}},
+                                          {"Skimmilk", {{0.70f, 1.22f, 1.90f}, {0.0014f, 0.0025f, 0.0142f}}},
+                                          {"Skin1", {{0.74f, 0.88f, 1.01f}, {0.032f, 0.17f, 0.48f}}},
+                                          {"Skin2", {{1.09f, 1.59f, 1.79f}, {0.013f, 0.070f, 0.145f}}},
+                                          {"Spectralon", {{11.6f, 20.4f, 14.9f}, {0, 0, 0}}},
+                                          {"Wholemilk", {{2.55f, 3.21f, 3.77f}, {0.0011f, 0.0024f, 0.014f}}}}};
+
+bool scatters(const Medium& medium) {
+    return medium.extinction.grid || medium.albedo.grid || !is_black(medium.albedo.value) || medium.emission.grid ||
+           !is_black(medium.emission.value);
+}
+
+std::optional<Box> box_of(Parameters& parameters) {
+    const auto corner = [&](const char* name, Vec3 fallback) {
+        const auto given = parameters.triples(name, Type::point3);
+        return given.empty() ? fallback : given[0];
+    };
+    Box box;
+    box.add(corner("p0", {0, 0, 0}));
+    box.add(corner("p1", {1, 1, 1}));
+    const Vec3 size = box.size();
+    if (finite(box.low) && finite(size) && size.x > 0 && size.y > 0 && size.z > 0) return box;
+    parameters.error("'p0' and 'p1' span no box");
+    return std::nullopt;
+}
+
+// From world space to the unit cube that a box of the medium's own space is.
+std::optional<Matrix> to_cube(const Box& box, const Matrix& to_world) {
+    Matrix unit;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        unit.m[axis][axis] = 1 / double(box.size()[axis]);
+        unit.m[axis][3] = -double(box.low[axis]) / double(box.size()[axis]);
+    }
+    const auto to_own = inverse(to_world);
+    return to_own ? std::optional(unit * *to_own) : std::nullopt;
+}
+
+// The numbers of a grid, x fastest, as the file lists them. None: they aren't given, or reported.
+std::shared_ptr<const VolumeGrid> grid_of(Parameters& parameters, const char* name, std::uint32_t channels) {
+    const Parameter* given = parameters.find(name);
+    if (!given) return nullptr;
+    VolumeGrid grid;
+    grid.fades = true;
+    grid.channels = channels;
+    double points = 1;
+    const std::array<const char*, 3> sides{"nx", "ny", "nz"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int size = parameters.integer(sides[axis], 1);
+        grid.size[axis] = static_cast<std::uint32_t>(std::max(size, 1));
+        points *= std::max(size, 1);
+    }
+    if (points * channels != double(given->numbers.size())) {
+        parameters.error(fmt::format("'{}' has {} numbers where nx, ny and nz ask for {:.0f}", name,
+                                     given->numbers.size(), points * channels));
+        return nullptr;
+    }
+    grid.values = given->numbers;
+    return std::make_shared<const VolumeGrid>(std::move(grid));
+}
+
+// pbrt's slopes of its noise.
+Vec3 slopes(Vec3 p) {
+    constexpr float step = 0.01f;
+    const float here = noise(p);
+    return Vec3{noise({p.x + step, p.y, p.z}) - here, noise({p.x, p.y + step, p.z}) - here,
+                noise({p.x, p.y, p.z + step}) - here} /
+           step;
+}
+
+// The density of pbrt's cloud, 0 … 1; y is up.
+struct CloudShape {
+    float density, wispiness, frequency;
+
+    float at(Vec3 p) const {
+        Vec3 place = p * frequency;
+        float height = 0.05f * wispiness, octave = 10;
+        for (int i = 0; i < 2 && wispiness > 0; ++i, height *= 0.5f, octave *= 1.99f)
+            place = place + slopes(place * octave) * height;
+        float sum = 0, share = 0.5f;
+        octave = 1;
+        for (int i = 0; i < 5; ++i, share *= 0.5f, octave *= 1.99f) sum += share * noise(place * octave);
+        const float low = std::clamp((1 - p.y) * 4.5f * density * sum, 0.0f, 1.0f);
+        return std::clamp(low + 2 * std::max(0.0f, 0.5f - p.y), 0.0f, 1.0f);
+    }
+};
+
+}  // namespace
+
+std::optional<Substance> substance_named(const std::string& name, const Parameters& parameters) {
+    std::vector<std::string> names;
+    for (const Preset& preset : presets) {
+        if (preset.name == name) return preset.substance;
+        names.emplace_back(preset.name);
+    }
+    parameters.warn(
+        fmt::format("there is no substance '{}' here{}: whole milk is taken", name, did_you_mean(name, names)));
+    return std::nullopt;
+}
+
+Substance usual_substance() { return presets.back().substance; }
+
+std::optional<Rgb> Media::colour(Parameters& parameters, const char* name) {
+    const Parameter* given = parameters.find(name);
+    if (!given) return std::nullopt;
+    const auto found = surface_of(*given, Use::index, sources_);
+    return found ? std::optional(found->rgb) : std::nullopt;
+}
+
+bool Media::define(const std::string& name, const Matrix& to_world, Parameters& parameters) {
+    if (has(name)) return false;
+    Made& made = made_[name];
+    auto medium = this->medium(parameters.text("type", ""), to_world, parameters);
+    if (!medium) return true;  // empty space
+    medium->name = name;
+    medium->where = parameters.where();
+    if (const auto fault = medium->fault(); !fault.empty()) parameters.error(fault);
+    made.medium = *std::move(medium);
+    if (scatters(made.medium)) be_space(name);
+    return true;
+}
+
+void Media::be_space(const std::string& name) {
+    const auto found = made_.find(name);
+    if (found == made_.end() || found->second.in_space) return;
+    found->second.in_space = true;
+    found->second.index = static_cast<std::uint16_t>(scene_.media.size());
+    scene_.media.push_back(found->second.medium);
+}
+
+std::uint16_t Media::add(Medium medium) {
+    scene_.media.push_back(std::move(medium));
+    return static_cast<std::uint16_t>(scene_.media.size() - 1);
+}
+
+Rgb Media::absorbed_in(const std::string& name) const {
+    const auto found = made_.find(name);
+    return found == made_.end() || found->second.in_space ? Rgb{} : found->second.medium.extinction.value;
+}
+
+std::uint16_t Media::index(const std::string& name) const {
+    const auto found = made_.find(name);
+    return found == made_.end() ? Query::no_medium : found->second.index;
+}
+
+std::vector<std::string> Media::names() const {
+    std::vector<std::string> all;
+    for (const auto& [name, made] : made_) all.push_back(name);
+    return all;
+}
+
+std::optional<Medium> Media::medium(const std::string& type, const Matrix& to_world, Parameters& parameters) {
+    Medium medium;
+    medium.albedo_scatters = true;
+    const bool older_grid = sources_.older() && type == "heterogeneous";
+    if (!older_grid && std::find(known_media.begin(), known_media.end(), type) == known_media.end()) {
+        parameters.ignore_all();
+        sources_.report.warn(parameters.where(),
+                             fmt::format("a medium of type '{}' is not supported{}: the space is taken as empty", type,
+                                         did_you_mean(type, known_media)));
+        return std::nullopt;
+    }
+    const float g = parameters.number("g", 0);
+    if (g != 0) medium.phase = {PhaseFunction::Law::henyey_greenstein, g};
+    if (type == "homogeneous")
+        even(parameters, medium);
+    else if (!gridded(type, to_world, parameters, medium))
+        return std::nullopt;
+    parameters.warn_unused();
+    return medium;
+}
+
+/// 'sigma_a', 'sigma_s' and 'Le' of a medium that has the same colours everywhere.
+void Media::coloured(Parameters& parameters, Medium& medium, Rgb absorbed, Rgb scattered) {
+    const auto preset = parameters.text("preset", "");
+    if (const auto known = preset.empty() ? std::nullopt : substance_named(preset, parameters))
+        absorbed = known->absorbed, scattered = known->scattered;
+    const float scale = parameters.number("scale", 1);
+    absorbed = colour(parameters, "sigma_a").value_or(absorbed) * scale;
+    scattered = colour(parameters, "sigma_s").value_or(scattered) * scale;
+    medium.extinction.value = absorbed + scattered;
+    medium.albedo.value = scattered;
+    if (const Parameter* light = parameters.find("Le"))
+        if (const auto found = light_of(*light, sources_)) medium.emission.value = found->rgb * absorbed;
+}
+
+void Media::even(Parameters& parameters, Medium& medium) {
+    coloured(parameters, medium, usual_substance().absorbed, usual_substance().scattered);
+    medium.emission.value *= parameters.number("Lescale", 1);
+}
+
+/// Media whose density changes in space.
+bool Media::gridded(const std::string& type, const Matrix& to_world, Parameters& parameters, Medium& medium) {
+    const auto box = box_of(parameters);
+    const auto to_grid = box ? to_cube(*box, to_world) : std::nullopt;
+    if (box && !to_grid) parameters.error("the transform of a medium is singular");
+    if (!to_grid) return false;
+    for (VolumeField* field : {&medium.extinction, &medium.albedo, &medium.emission}) field->to_grid = *to_grid;
+    if (type == "rgbgrid") {
+        const float scale = parameters.number("scale", 1);
+        const auto absorbed = grid_of(parameters, "sigma_a", 3), scattered = grid_of(parameters, "sigma_s", 3);
+        if (!absorbed && !scattered) return false;
+        VolumeGrid sum = absorbed ? *absorbed : *scattered;
+        if (absorbed && scattered)
+            for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += scattered->values[i];
+        medium.extinction.grid = std::make_shared<const VolumeGrid>(std::move(sum));
+        medium.extinction.value = Rgb{scale, scale, scale};
+        medium.albedo.grid = scattered;
+        medium.albedo.value = scattered ? Rgb{scale, scale, scale} : Rgb{};
+        if (parameters.find("Le")) parameters.warn("what an 'rgbgrid' emits ('Le') is left out");
+        return true;
+    }
+    coloured(parameters, medium, {1, 1, 1}, {1, 1, 1});
+    if (type == "cloud") {
+        cloud(parameters, medium, *box);
+    } else {
+        medium.extinction.grid = grid_of(parameters, "density", 1);
+        if (parameters.find("temperature")) parameters.warn("what a medium emits by its 'temperature' is left out");
+        const Parameter* scale = parameters.find("Lescale");
+        if (scale && scale->numbers.size() > 1)
+            parameters.warn("'Lescale' can't change in space: 1 is taken");
+        else
+            medium.emission.value *= parameters.number("Lescale", 1);
+    }
+    if (!medium.extinction.grid) return false;
+    if (!is_black(medium.albedo.value)) medium.albedo.grid = medium.extinction.grid;
+    if (!is_black(medium.emission.value)) medium.emission.grid = medium.extinction.grid;
+    return true;
+}
+
+void Media::cloud(Parameters& parameters, Medium& medium, const Box& box) {
+    const CloudShape shape{parameters.number("density", 1), parameters.number("wispiness", 1),
+                           parameters.number("frequency", 5)};
+    constexpr std::uint32_t points = 128;
+    VolumeGrid grid;
+    grid.size = {points, points, points};
+    const Vec3 size = box.size();
+    for (std::uint32_t z = 0; z < points; ++z)
+        for (std::uint32_t y = 0; y < points; ++y)
+            for (std::uint32_t x = 0; x < points; ++x)
+                grid.values.push_back(
+                    shape.at(box.low + Vec3{(float(x) + 0.5f) / points * size.x, (float(y) + 0.5f) / points * size.y,
+                                            (float(z) + 0.5f) / points * size.z}));
+    medium.extinction.grid = std::make_shared<const VolumeGrid>(std::move(grid));
+}
+
+}  // namespace lightnet::pbrt

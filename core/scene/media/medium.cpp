@@ -1,0 +1,80 @@
+#include "core/scene/media/medium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace lightnet {
+namespace {
+
+bool sound(Rgb colour) { return finite(colour) && colour.r >= 0 && colour.g >= 0 && colour.b >= 0; }
+
+bool sound(const VolumeField& field) {
+    if (!sound(field.value)) return false;
+    if (!field.grid) return true;
+    const VolumeGrid& grid = *field.grid;
+    return (grid.channels == 1 || grid.channels == 3) && grid.values.size() == grid.points() * grid.channels &&
+           std::all_of(grid.values.begin(), grid.values.end(), [](float v) { return std::isfinite(v) && v >= 0; });
+}
+
+Rgb mixed(Rgb a, Rgb b, float part) { return a * (1 - part) + b * part; }
+
+// The points on both sides of a place along one axis, and how far it is to the second.
+struct Between {
+    std::int64_t first;
+    float part;
+};
+Between between(float place, std::uint32_t size) {
+    const float at = std::clamp(place, 0.0f, 1.0f) * float(size) - 0.5f, below = std::floor(at);
+    return {static_cast<std::int64_t>(below), at - below};
+}
+
+}  // namespace
+
+Rgb VolumeGrid::point(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    const std::array<std::int64_t, 3> wanted{x, y, z};
+    std::size_t index = 0;
+    for (std::size_t axis = 3; axis-- > 0;) {
+        const auto within = std::clamp<std::int64_t>(wanted[axis], 0, std::int64_t{size[axis]} - 1);
+        if (fades && within != wanted[axis]) return {};
+        index = index * size[axis] + static_cast<std::size_t>(within);
+    }
+    const float* value = values.data() + index * channels;
+    return channels == 3 ? Rgb{value[0], value[1], value[2]} : Rgb{value[0], value[0], value[0]};
+}
+
+Rgb VolumeGrid::at(Vec3 place) const {
+    const auto [x, a] = between(place.x, size[0]);
+    const auto [y, b] = between(place.y, size[1]);
+    const auto [z, c] = between(place.z, size[2]);
+    if (nearest) return point(x + (a >= 0.5f), y + (b >= 0.5f), z + (c >= 0.5f));
+    const auto row = [&](std::int64_t j, std::int64_t k) {
+        return mixed(point(x, y + j, z + k), point(x + 1, y + j, z + k), a);
+    };
+    return mixed(mixed(row(0, 0), row(1, 0), b), mixed(row(0, 1), row(1, 1), b), c);
+}
+
+Hash VolumeGrid::content() const {
+    Hasher hasher;
+    hasher.add(std::as_bytes(std::span(size)));
+    const std::array<std::uint32_t, 3> ways{channels, fades, nearest};
+    hasher.add(std::as_bytes(std::span(ways)));
+    hasher.add(std::as_bytes(std::span(values)));
+    return hasher.finish();
+}
+
+std::string Medium::fault() const {
+    for (const VolumeField* field : {&extinction, &albedo, &emission})
+        if (!sound(*field)) return "a medium's numbers must be finite and not negative";
+    return phase.fault();
+}
+
+Rgb Medium::albedo_at(Vec3 position) const {
+    const Rgb found = albedo.at(position);
+    if (!albedo_scatters) return found;
+    const Rgb whole = extinction.at(position);
+    const auto share = [](float part, float all) { return all > 0 ? std::min(part / all, 1.0f) : 0.0f; };
+    return {share(found.r, whole.r), share(found.g, whole.g), share(found.b, whole.b)};
+}
+
+}  // namespace lightnet

@@ -1,0 +1,69 @@
+// Participating media as read from files: fog, smoke, fire.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/hash.hpp"
+#include "core/base/math/rgb.hpp"
+#include "core/base/math/transform.hpp"
+#include "core/scene/bsdf/phase.hpp"
+#include "core/scene/textures/members.hpp"
+
+namespace lightnet {
+
+/// Numbers at the points of a grid that fills a unit cube. Constant once it is made.
+struct VolumeGrid {
+    std::array<std::uint32_t, 3> size{1, 1, 1};  // x, y, z; each 1 at least
+    std::uint32_t channels = 1;                  // 1, or 3: red, green, blue
+    std::vector<float> values{};                 // channel by channel of each point; x runs fastest
+    bool fades = false;    // what lies half a cell beyond the outermost points counts as 0; else as these
+    bool nearest = false;  // the nearest point's numbers; else linear between eight
+
+    std::size_t points() const { return std::size_t{size[0]} * size[1] * size[2]; }
+    Rgb point(std::int64_t x, std::int64_t y, std::int64_t z) const;
+    /// At a place in the unit cube; outside of it what the nearest place there has.
+    Rgb at(Vec3 place) const;
+    /// Of all that it is.
+    Hash content() const;
+};
+
+/// A colour in space: the same everywhere, or times a grid.
+struct VolumeField {
+    Rgb value;
+    std::shared_ptr<const VolumeGrid> grid{};
+    Matrix to_grid{};  // from world space to the grid's unit cube
+
+    Rgb at(Vec3 position) const { return grid ? value * grid->at(transform_point(to_grid, position)) : value; }
+};
+void visit_members(Is<VolumeField> auto& field, const auto& visit) {
+    auto& [value, grid, to_grid] = field;
+    visit(value, grid, to_grid);
+}
+
+/// What collides with light in space. Where `extinction` has a grid the medium ends with the grid's cube.
+struct Medium {
+    std::string name{};
+    VolumeField extinction{};  // collisions per metre: absorbed and scattered
+    VolumeField albedo{};      // share of them that scatters; or, if `albedo_scatters`, scattering per metre
+    bool albedo_scatters = false;
+    VolumeField emission{};  // radiance that comes to a ray per metre, W·sr⁻¹·m⁻³
+    PhaseFunction phase{};
+    SourceLine where{};
+
+    /// Why it can't be used; "": it can.
+    std::string fault() const;
+    bool is_even() const { return !extinction.grid && !albedo.grid && !emission.grid; }
+    Rgb albedo_at(Vec3 position) const;
+};
+void visit_members(Is<Medium> auto& medium, const auto& visit) {
+    auto& [name, extinction, albedo, albedo_scatters, emission, phase, where] = medium;
+    visit(extinction, albedo, albedo_scatters, emission, phase);
+}
+
+}  // namespace lightnet
