@@ -241,5 +241,29 @@ TEST(SceneOverrides, TakeBlackBacksAway) {
     EXPECT_FALSE(changed(scene, overrides).materials[1].one_sided);
 }
 
+// Fog is everywhere but in solid glass and in what the file fills.
+TEST(SceneOverrides, FillSpaceWithFog) {
+    SceneData scene = with_camera();
+    scene.materials.push_back({"glass", DielectricMaterial{}});
+    scene.materials.push_back({"nothing", NoMaterial{}});
+    scene.media.emplace_back();
+    scene.shapes.push_back({Sphere{}, 0, {}, {}});
+    scene.shapes.push_back({Sphere{}, 1, {}, {}, "", MediumSides{0, Query::no_medium}});
+    SceneOverrides overrides;
+    overrides.fog = FogOverride{0.5f, {1, 0.5f, 0}, 0.25f};
+    const auto foggy = changed(scene, overrides);
+    ASSERT_EQ(foggy.media.size(), 2u);
+    EXPECT_EQ(foggy.media[1].extinction.value, (Rgb{0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(foggy.media[1].albedo_at({}), (Rgb{1, 0.5f, 0}));
+    EXPECT_EQ(foggy.media[1].phase.g, 0.25f);
+    EXPECT_EQ(foggy.around, 1);
+    EXPECT_EQ(foggy.shapes[0].media->inside, Query::no_medium);
+    EXPECT_EQ(foggy.shapes[0].media->outside, 1);
+    EXPECT_EQ(foggy.shapes[1].media->inside, 0);
+    EXPECT_EQ(foggy.shapes[1].media->outside, 1);
+    overrides.fog->albedo.r = 2;
+    EXPECT_THAT(error_of(scene, overrides), HasSubstr("g.lua:3: 'fog': an 'albedo' can't be above 1"));
+}
+
 }  // namespace
 }  // namespace lightnet::overrides_test

@@ -42,7 +42,8 @@ Header checked_volume_header(std::span<const std::byte> bytes) {
         refuse(fmt::format("{} numbers a point are not known (1 and 3 are)", header.channels));
     constexpr std::int32_t most = 1 << 14;
     for (const std::int32_t size : header.size)
-        if (size < 1 || size > most) refuse(fmt::format("{} points along an axis are not between 1 and {}", size, most));
+        if (size < 1 || size > most)
+            refuse(fmt::format("{} points along an axis are not between 1 and {}", size, most));
     return header;
 }
 

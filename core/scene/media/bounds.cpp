@@ -10,14 +10,14 @@ CollisionBounds::CollisionBounds(const VolumeField& extinction) : to_grid_(extin
             for (cell[0] = 0; cell[0] < size_[0]; ++cell[0]) most_.push_back(most_in(cell, extinction));
 }
 
-// Of all points between which a place in the cell may lie, and one more for what is rounded.
+// Of all points between which a place in the cell may lie.
 float CollisionBounds::most_in(std::array<std::uint32_t, 3> cell, const VolumeField& extinction) const {
     const VolumeGrid& grid = *extinction.grid;
     std::array<std::int64_t, 3> first, last;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int64_t points = grid.size[axis];
-        first[axis] = cell[axis] * points / size_[axis] - 2;
-        last[axis] = (cell[axis] + 1) * points / size_[axis] + 2;
+        first[axis] = cell[axis] * points / size_[axis] - 1;
+        last[axis] = ((cell[axis] + 1) * points + size_[axis] - 1) / size_[axis];
     }
     float most = 0;
     for (std::int64_t z = first[2]; z <= last[2]; ++z)
