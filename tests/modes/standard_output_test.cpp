@@ -51,7 +51,8 @@ std::map<std::string, Words> printing(const test::Folder& folder, const std::str
             {"remix", {}},
             {"clean", {}},
             {"bench-hosts", {}},
-            {"predict", {}},
+            {"film", {}},
+            {"predict", {folder / "picture.run.json", "--places", "2"}},
             {"scene", {"info", test::graph_file("cornell_box.pbrt")}},
             {"check", {graph}},
             {"dot", {graph}},
@@ -70,7 +71,7 @@ TEST(StandardOutput, IsMissedByEveryVerb) {
     const test::Folder folder;
     const test::Daemon daemon(folder);
     ASSERT_EQ(
-        launch(test::graph_file("direct.lua"), folder, {"--size", "8x8", "--samples", "1", "--threads", "1"}).code, 0);
+        launch(test::graph_file("direct.lua"), folder, {"--size", "8x8", "--samples", "1", "--threads", "2"}).code, 0);
     const auto known = printing(folder, daemon.endpoint);
     for (const auto& verb : standard_verbs()) {
         expect_told({program("lightnet"), "help", verb.name});
