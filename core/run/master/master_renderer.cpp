@@ -99,7 +99,7 @@ std::vector<Tile> MasterRenderer::take_next() {
         bytes += answers_to(tile, job_.width) * sizeof(Rgb);
         if (!tiles.empty() && (blocks + tile.blocks() > most.quick || bytes > most_bytes)) break;
         pass_next_tile();
-        if (tile.blocks() > most.of_group) {
+        if (tile.blocks() > most.of_group && !cut_tiles_.is_piece(tile)) {
             const auto pieces = one_by_one(tile);
             pieces_.insert(pieces_.end(), pieces.rbegin(), pieces.rend());
             bytes = 0;
