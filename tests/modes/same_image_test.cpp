@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -47,6 +48,7 @@ std::vector<std::string> nodes_of(const std::string& graph) {
         const auto equals = line.find(" = "), brace = line.find('{');
         if (line.starts_with("--") || equals == std::string::npos || brace == std::string::npos || equals + 3 >= brace)
             continue;
+        if (!std::isupper(static_cast<unsigned char>(line[equals + 3]))) continue;  // keys { … }, say
         const auto name = line.substr(0, line.find_first_of(" ="));
         if (line.find("Scene", equals) == std::string::npos) names.push_back(name);
     }
