@@ -86,7 +86,9 @@ TEST_F(DaemonTest, RefusesAnotherProtocolVersionAndNamesBoth) {
     launcher.send(packet);
     const auto [type, fields] = launcher.receive();
     EXPECT_EQ(type, Type::refuse);
-    EXPECT_NE(fields.text("text").find("version " + std::to_string(packet::version) + " is spoken here, not 9"), std::string::npos) << fields.text("text");
+    EXPECT_NE(fields.text("text").find("version " + std::to_string(packet::version) + " is spoken here, not 9"),
+              std::string::npos)
+        << fields.text("text");
 }
 
 TEST_F(DaemonTest, RefusesAJobThatIsNone) {
