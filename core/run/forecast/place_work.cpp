@@ -19,13 +19,13 @@ std::vector<NodeSet> held_by_places(const RunCosts& costs, const Plan& plan) {
 
 // Nodes that another kind of place holds, which lacks one of those of this kind.
 NodeSet relieved(const NodeSet& mine, const std::set<NodeSet>& kinds) {
-    NodeSet shares(mine.size(), false);
+    NodeSet relieved_nodes(mine.size(), false);
     for (const auto& other : kinds) {
         if (holds_all_of(other, mine)) continue;
         for (std::size_t node = 0; node < mine.size(); ++node)
-            if (mine[node] && other[node]) shares[node] = true;
+            if (mine[node] && other[node]) relieved_nodes[node] = true;
     }
-    return shares;
+    return relieved_nodes;
 }
 
 QuestionWork work_of(std::size_t node, const RunCosts& costs, const PlaceWork& place) {

@@ -11,7 +11,7 @@
 namespace lightnet {
 namespace {
 
-constexpr double worth_the_way = 0.05;  // seconds of shards that go together, see Preparer
+constexpr double shards_worth_the_way = 0.05;  // seconds of shards that go together, see Preparer
 
 /// Prepares one node after the other.
 class Preparation {
@@ -107,7 +107,7 @@ private:
         const auto& host = dealt.to.place.host;
         const double seconds = each / facts(host).speed;
         const auto most =
-            static_cast<std::uint32_t>(std::min(1e9, 1 + std::floor(worth_the_way / std::max(seconds, 1e-9))));
+            static_cast<std::uint32_t>(std::min(1e9, 1 + std::floor(shards_worth_the_way / std::max(seconds, 1e-9))));
         const auto done = std::min(dealt.shards.count, most);
         auto& free = free_[dealt.to.place];
         free = std::max(free, events.now() + way_to(host)) + done * seconds;
