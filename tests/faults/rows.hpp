@@ -50,7 +50,7 @@ inline constexpr std::array rows = {
         "OfDescriptorsEndNoProcess", std::chrono::seconds(180)},
     Row{16, "lua", "hostile graph files", "code 2 and one error, in little time and memory",
         "OfHostileGraphFilesEndWithOneError", std::chrono::seconds(240)},
-    Row{17, "input", "damaged scenes and pictures", "code 2, file and line; no picture",
+    Row{17, "input", "damaged scenes and pictures", "code 2, file and line; a grey picture",
         "OfDamagedInputEndWithFileAndLine", std::chrono::seconds(180)},
     Row{18, "not-finite", "light that is not finite", "counted by name; no such pixel",
         "OfLightThatIsNotFiniteIsCounted", std::chrono::seconds(120)},
