@@ -1,6 +1,7 @@
 // Files that runs write, and files of others in their places.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -18,8 +19,9 @@ bool has_ending(const std::filesystem::path& path, std::string_view ending);
 std::filesystem::path png_beside(const std::filesystem::path& picture);
 
 /// Why nothing may be written at `path`: what is there is not of the kind that begins so, and not empty. "": it may.
-std::string why_not_replaced(const std::filesystem::path& path, std::string_view beginning);
+/// Some kinds have their mark behind `before` other bytes.
+std::string why_not_replaced(const std::filesystem::path& path, std::string_view beginning, std::size_t before = 0);
 /// Throws Error when nothing may be.
-void expect_ours(const std::filesystem::path& path, std::string_view beginning);
+void expect_ours(const std::filesystem::path& path, std::string_view beginning, std::size_t before = 0);
 
 }  // namespace lightnet

@@ -12,21 +12,6 @@ namespace {
 
 using namespace test;
 
-struct Measured {
-    double mean = 0, error = 0;
-};
-
-Measured measure(const Renderer& renderer, std::uint32_t size, std::uint32_t samples) {
-    const auto pixels = picture(renderer, size, size, samples);
-    double sum = 0, squares = 0;
-    for (const Rgb& pixel : pixels) {
-        sum += pixel.g;
-        squares += double{pixel.g} * pixel.g;
-    }
-    const double n = double(pixels.size()), mean = sum / n;
-    return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1))};
-}
-
 Medium fog(Rgb extinction, Rgb albedo, float g = 0) {
     Medium medium;
     medium.extinction.value = extinction;

@@ -10,21 +10,6 @@ namespace {
 
 using namespace test;
 
-struct Measured {
-    double mean = 0, error = 0;  // standard deviation of the mean, from the pixels, which are independent
-};
-
-Measured measure(const Renderer& renderer, std::uint32_t size, std::uint32_t samples) {
-    const auto pixels = picture(renderer, size, size, samples);
-    double sum = 0, squares = 0;
-    for (const Rgb& pixel : pixels) {
-        sum += pixel.g;
-        squares += double{pixel.g} * pixel.g;
-    }
-    const double n = double(pixels.size()), mean = sum / n;
-    return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1))};
-}
-
 // In a closed room of albedo ρ whose walls emit 1, all is 1 + ρ + ρ² + … = 1 / (1 - ρ) bright. The bound is four
 // standard deviations of the mean: one run in 16,000 would fail by chance, and the run is always the same one.
 class Furnace : public testing::TestWithParam<float> {};

@@ -9,6 +9,7 @@
 #include "core/readers/read_scene.hpp"
 #include "tests/support/gltf_text.hpp"
 #include "tests/support/memory_files.hpp"
+#include "tests/support/mistake.hpp"
 
 namespace lightnet::test::gltf_motion_reader_test {
 namespace {
@@ -46,16 +47,6 @@ SceneData at(const GltfText& text, const std::string& document, const std::strin
 
 void expect_near(Vec3 a, Vec3 b) { EXPECT_LT(length(a - b), 1e-5f) << a.x << ' ' << a.y << ' ' << a.z; }
 Vec3 corner(const SceneData& scene, std::size_t i = 1) { return mesh_of(scene).positions.at(i); }
-
-template <class Act>
-std::string mistake_of(const Act& act) {
-    try {
-        act();
-        return "";
-    } catch (const UserError& error) {
-        return error.what();
-    }
-}
 
 TEST(GltfMotion, GoesStraightFromKeyToKeyAndStandsBeyondThem) {
     Moving moving;

@@ -4,6 +4,7 @@
 
 #include "core/readers/read_scene.hpp"
 #include "tests/support/memory_files.hpp"
+#include "tests/support/mistake.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::mitsuba_motion_reader_test {
@@ -27,16 +28,6 @@ SceneData at(const std::string& text, const SceneConstants& constants) {
 
 float eye(const SceneData& scene) { return float(scene.camera.to_world.m[2][3]); }
 float ball(const SceneData& scene) { return std::get<Sphere>(scene.shapes.at(0).geometry).center.x; }
-
-template <class Act>
-std::string mistake_of(const Act& act) {
-    try {
-        act();
-        return "";
-    } catch (const UserError& error) {
-        return error.what();
-    }
-}
 
 TEST(MitsubaMotion, StandsAsAtTheMomentThatIsWanted) {
     const auto scene = at(moving, {{std::string(time_constant), "0.5"}});

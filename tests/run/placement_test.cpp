@@ -138,7 +138,7 @@ Found compare_with_all(std::uint64_t first_seed, std::size_t cases, std::size_t 
 
 #ifndef LIGHTNET_LARGE
 
-TEST(Placement, IsAsGoodAsAnyOtherWhereMemoryLacks) {
+TEST(Placement, ComesNearTheBestWhereMemoryLacks) {
     const auto found = compare_with_all(1000, 4, 2, 2);
     EXPECT_GE(found.least, 0.6);
     EXPECT_GE(found.median, 0.95);
@@ -206,7 +206,7 @@ TEST(Placement, IsSaidAsAHostsFileDoes) {
 
 #else
 
-TEST(PlacementLarge, IsAsGoodAsAnyOtherWhereMemoryLacks) {
+TEST(PlacementLarge, ComesNearTheBestWhereMemoryLacks) {
     const auto found = compare_with_all(1000, 10, 2, 3);
     EXPECT_GE(found.least, 0.6);
     EXPECT_GE(found.median, 0.95);

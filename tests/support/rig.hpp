@@ -1,6 +1,8 @@
 // A lighting network of one thread, put together by hand: nodes of a scene that ask each other by calls.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -111,6 +113,21 @@ inline std::vector<Rgb> picture(const Renderer& renderer, std::uint32_t width, s
     }
     for (auto& pixel : sum) pixel *= 1 / float(samples);
     return sum;
+}
+
+/// The mean of a picture's green, and its standard deviation, from the pixels, which are independent.
+struct Measured {
+    double mean = 0, error = 0;
+};
+inline Measured measure(const Renderer& renderer, std::uint32_t size, std::uint32_t samples) {
+    const auto pixels = picture(renderer, size, size, samples);
+    double sum = 0, squares = 0;
+    for (const Rgb& pixel : pixels) {
+        sum += pixel.g;
+        squares += double{pixel.g} * pixel.g;
+    }
+    const double n = double(pixels.size()), mean = sum / n;
+    return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1))};
 }
 
 }  // namespace lightnet::test

@@ -1,6 +1,7 @@
 #include "tools/pictures/film_strip.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -76,6 +78,19 @@ void lay(Picture& sheet, std::uint32_t left, std::uint32_t top, const Picture& p
             sheet.beauty[std::size_t{top + y} * sheet.width + left + x] = mean(picture, x, y, scale, gain);
 }
 
+// Of all, before the first is written.
+void expect_strip_place(const std::vector<FrameFile>& frames, const std::string& name) {
+    std::set<fs::path> own;
+    for (const auto& frame : frames) own.insert(png_beside(frame.file));
+    for (std::size_t place = 1; place <= frames.size(); ++place) {
+        const auto png = with_frame(name, static_cast<int>(place));
+        if (own.contains(png))
+            throw UserError({png, 0},
+                            "is the picture beside a frame: give those of the film another name, like film.####.png");
+        expect_ours(png, png_beginning);
+    }
+}
+
 bool is_in_path(const std::string& program) {
     const char* const path = std::getenv("PATH");
     std::istringstream folders(path ? path : "");
@@ -121,6 +136,7 @@ PngView view_of_film(const std::vector<FrameFile>& frames, PictureView wanted) {
 }
 
 void write_strip(const std::vector<FrameFile>& frames, const PngView& view, const std::string& name) {
+    expect_strip_place(frames, name);
     std::optional<std::pair<std::uint32_t, std::uint32_t>> size;
     int place = 0;
     for (const auto& frame : frames) {
@@ -130,9 +146,7 @@ void write_strip(const std::vector<FrameFile>& frames, const PngView& view, cons
             throw UserError({frame.file, 0},
                             fmt::format("has {}x{} pixels, and {} has {}x{}", picture.width, picture.height,
                                         frames.front().file, size->first, size->second));
-        const auto png = with_frame(name, ++place);
-        expect_ours(png, png_beginning);
-        write_png(png, picture, view);
+        write_png(with_frame(name, ++place), picture, view);
     }
 }
 
@@ -156,10 +170,16 @@ void write_sheet(const std::vector<FrameFile>& frames, const PngView& view, cons
     write_png(png, sheet, {0, view.filmic});
 }
 
+void expect_film_place(const fs::path& film) {
+    if (has_ending(film, ".mp4") || has_ending(film, ".mov")) return expect_ours(film, "ftyp", 4);
+    expect_ours(film, has_ending(film, ".gif") ? "GIF8" : "\x1a\x45\xdf\xa3");  // Matroska and WebM
+}
+
 bool encode_film(const std::string& strip, double fps, const std::string& film) {
     if (!is_in_path("ffmpeg")) return false;
     const fs::path path(film);
-    const auto part = path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
+    const auto part =
+        path.parent_path() / fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string());
     std::vector<std::string> words{"ffmpeg",
                                    "-hide_banner",
                                    "-loglevel",
@@ -177,6 +197,8 @@ bool encode_film(const std::string& strip, double fps, const std::string& film) 
         words.insert(words.end(), {"-c:v", "libx264", "-crf", "16", "-movflags", "+faststart"});
     words.push_back(part.string());
     const auto ended = run_program(std::move(words), "", longest_encoding);
+    std::error_code none;
+    if (ended.code != 0) fs::remove(part, none);
     if (ended.code != 0) throw Error("ffmpeg", "ended with " + std::to_string(ended.code) + ": " + ended.text);
     fs::rename(part, path);
     return true;

@@ -27,11 +27,15 @@ std::string missing_frames(const std::vector<FrameFile>& frames);
 PngView view_of_film(const std::vector<FrameFile>& frames, PictureView wanted);
 
 /// Writes each as a PNG, whose name `name` gives with the place of the frame in the film, from 1 on. Throws UserError
-/// when one can't be read or has another size than the first.
+/// when one can't be read or has another size than the first, or when they would take the place of the frames' own
+/// PNGs; Error when they would take that of somebody else's files.
 void write_strip(const std::vector<FrameFile>& frames, const PngView& view, const std::string& name);
 
 /// Writes all small, beside and below each other, as one PNG. Throws UserError.
 void write_sheet(const std::vector<FrameFile>& frames, const PngView& view, const std::filesystem::path& png);
+
+/// Throws Error when a film would take the place of a file that is none.
+void expect_film_place(const std::filesystem::path& film);
 
 /// Has ffmpeg make a film of the PNGs of such a name. False: it is not installed. Throws Error with what it says.
 bool encode_film(const std::string& strip, double fps, const std::string& film);

@@ -61,6 +61,7 @@ int write_film(const FilmOptions& options, const std::vector<FrameFile>& frames,
     std::string film = options.output;
     if (film.empty())
         film = std::filesystem::path(without_frame_place(options.pictures)).replace_extension(".mp4").string();
+    if (!has_frame_place(film)) expect_film_place(film);
     if (has_frame_place(film)) {
         write_strip(frames, view, film);
         launcher.err << frames.size() << " frames in " << film << '\n';
@@ -73,7 +74,7 @@ int write_film(const FilmOptions& options, const std::vector<FrameFile>& frames,
         launcher.err << frames.size() << " frames in " << film << '\n';
         return exit_code::done;
     }
-    const auto instead = std::filesystem::path(film).replace_extension(".####.png").string();
+    const auto instead = std::filesystem::path(film).replace_extension(".film.####.png").string();
     write_strip(frames, view, instead);
     launcher.err << "ffmpeg is not installed, so the film is " << frames.size() << " numbered pictures: " << instead
                  << '\n';

@@ -31,10 +31,10 @@ struct Source {
     }
 };
 
-/// One line to each host of the LineBook. A packet over one of them wakes fewer threads than one through the host's own
-/// (six, not eight, there and back). One is used as soon as the host has greeted it, for as many bytes as the book has
-/// room for: then nothing need wait its turn, nor be marked, which a place that computes could not answer in time. One
-/// thread's.
+/// One line to each host of the LineBook. A packet over one of them goes from thread to thread eight times there and
+/// back, and through the host's own ten times. One is used as soon as the host has greeted it, for as many bytes as the
+/// book has room for: then nothing need wait its turn, nor be marked, which a place that computes could not answer in
+/// time. One thread's.
 class OwnLines {
 public:
     /// `book` null: there are none.

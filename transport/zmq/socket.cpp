@@ -13,7 +13,7 @@
 #include "core/base/spare_threads.hpp"
 #include "transport/address/listening.hpp"
 #include "transport/places/descriptors.hpp"
-#include "transport/zmq/process_number.hpp"
+#include "transport/zmq/process_id.hpp"
 
 namespace lightnet {
 namespace {
@@ -87,7 +87,7 @@ bool SocketError::out_of_descriptors() const { return number_ == EMFILE || numbe
 // beforehand, and started at once, so that nobody else of this process takes them meanwhile.
 SocketContext::SocketContext(int io_threads, std::shared_ptr<const NameService> names)
     : names_(std::make_unique<Resolver>(std::move(names))) {
-    keep_process_number();
+    keep_process_id();
     want_descriptors(descriptors_of_context, "a process with sockets");
     want_threads(static_cast<std::size_t>(io_threads) + threads_of_context, "a process with sockets");
     context_ = in_our_words([&] { return std::make_unique<zmq::context_t>(io_threads, most_sockets); });

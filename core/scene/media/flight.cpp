@@ -32,6 +32,22 @@ constexpr float most_steps = 4096;
 // A distance over the mean free path.
 float free_path(float u) { return -logarithm(1 - u); }
 
+// take(distance, most) of each place where light may collide, by bounds `most` of the extinction, in order, until it
+// says false. Returns what it said last.
+template <class Take>
+bool each_tentative(const CollisionBounds& bounds, const Ray& ray, const Stretch& way, FlightNumbers& numbers,
+                    Take&& take) {
+    return bounds.each_cell(ray, way.begin, way.end, [&](float begin, float end, float most) {
+        if (!(most > 0)) return true;
+        most = std::min(most, most_steps / (end - begin));
+        while (true) {
+            begin += free_path(numbers.next()) / most;
+            if (!(begin < end)) return true;
+            if (!take(begin, most)) return false;
+        }
+    });
+}
+
 // Chances of the colours, by what a path carries of each.
 Rgb chances(Rgb carried) {
     const float all = sum(carried);
@@ -90,27 +106,21 @@ bool fly_even(const Medium& medium, const Stretch& way, Rgb carried, FlightNumbe
 bool fly_uneven(const Medium& medium, const CollisionBounds& bounds, const Ray& ray, const Stretch& way, Rgb carried,
                 FlightNumbers& numbers, Flight& flight) {
     const bool scatters = medium.albedo.grid || !is_black(medium.albedo.value);
-    return bounds.each_cell(ray, way.begin, way.end, [&](float begin, float end, float most) {
-        if (!(most > 0)) return true;
-        most = std::min(most, most_steps / (end - begin));
-        while (true) {
-            begin += free_path(numbers.next()) / most;
-            if (!(begin < end)) return true;
-            const Vec3 place = ray.origin + ray.direction * begin;
-            const Rgb share = medium.extinction.at(place) / most;  // of collisions that are real
-            flight.emitted += flight.weight * medium.emission.at(place) / most;
-            // DECISIONS: colours-collide-together
-            // Colours collide together, with the chance that suits what is carried of them: Kutz et al. 2017, "Spectral
-            // and Decomposition Tracking for Rendering Heterogeneous Volumes".
-            const float real = scatters ? std::min(sum(chances(carried * flight.weight) * share), 1.0f) : 0;
-            if (numbers.next() < real) {
-                flight.weight *= over(share, real);
-                flight.collision = Collision{begin, way.medium};
-                return false;
-            }
-            flight.weight *= over(each(share, [](float one) { return std::max(0.0f, 1 - one); }), 1 - real);
-            if (is_black(flight.weight)) return false;
+    return each_tentative(bounds, ray, way, numbers, [&](float distance, float most) {
+        const Vec3 place = ray.origin + ray.direction * distance;
+        const Rgb share = medium.extinction.at(place) / most;  // of collisions that are real
+        flight.emitted += flight.weight * medium.emission.at(place) / most;
+        // DECISIONS: colours-collide-together
+        // Colours collide together, with the chance that suits what is carried of them: Kutz et al. 2017, "Spectral
+        // and Decomposition Tracking for Rendering Heterogeneous Volumes".
+        const float real = scatters ? std::min(sum(chances(carried * flight.weight) * share), 1.0f) : 0;
+        if (numbers.next() < real) {
+            flight.weight *= over(share, real);
+            flight.collision = Collision{distance, way.medium};
+            return false;
         }
+        flight.weight *= over(each(share, [](float one) { return std::max(0.0f, 1 - one); }), 1 - real);
+        return !is_black(flight.weight);
     });
 }
 
@@ -119,20 +129,14 @@ Rgb left_along(const Medium& medium, float length) { return left(medium.extincti
 bool let_through(const Medium& medium, const CollisionBounds& bounds, const Ray& ray, const Stretch& way,
                  FlightNumbers& numbers, Rgb& light) {
     constexpr float faint = 0.05f, ends = 0.75f;  // Russian roulette, as all that follows is for little
-    return bounds.each_cell(ray, way.begin, way.end, [&](float begin, float end, float most) {
-        if (!(most > 0)) return true;
-        most = std::min(most, most_steps / (end - begin));
-        while (true) {
-            begin += free_path(numbers.next()) / most;
-            if (!(begin < end)) return true;
-            const Rgb share = medium.extinction.at(ray.origin + ray.direction * begin) / most;
-            light *= each(share, [](float one) { return std::max(0.0f, 1 - one); });
-            if (max_component(light) < faint) {
-                if (numbers.next() < ends) light = {};
-                light *= 1 / (1 - ends);
-            }
-            if (is_black(light)) return false;
+    return each_tentative(bounds, ray, way, numbers, [&](float distance, float most) {
+        const Rgb share = medium.extinction.at(ray.origin + ray.direction * distance) / most;
+        light *= each(share, [](float one) { return std::max(0.0f, 1 - one); });
+        if (max_component(light) < faint) {
+            if (numbers.next() < ends) light = {};
+            light *= 1 / (1 - ends);
         }
+        return !is_black(light);
     });
 }
 

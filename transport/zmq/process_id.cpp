@@ -1,4 +1,4 @@
-#include "transport/zmq/process_number.hpp"
+#include "transport/zmq/process_id.hpp"
 
 #include <pthread.h>
 #include <sys/syscall.h>
@@ -18,15 +18,15 @@ void look_anew() noexcept { kept.store(ask_the_system(), std::memory_order_relax
 }  // namespace
 
 // Stands in for the C library's, for this program and the libraries that it uses.
-// DECISIONS: process-number-is-kept
+// DECISIONS: process-id-is-kept
 extern "C" pid_t getpid() noexcept {
-    const auto number = kept.load(std::memory_order_relaxed);
-    return number != 0 ? number : ask_the_system();
+    const auto id = kept.load(std::memory_order_relaxed);
+    return id != 0 ? id : ask_the_system();
 }
 
 namespace lightnet {
 
-void keep_process_number() {
+void keep_process_id() {
     if (is_kept.exchange(true)) return;
     if (pthread_atfork(nullptr, nullptr, look_anew) == 0) look_anew();
 }

@@ -1,5 +1,5 @@
-// The number of this process, kept.
-#include "transport/zmq/process_number.hpp"
+// The id of this process, kept.
+#include "transport/zmq/process_id.hpp"
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace lightnet {
 namespace {
 
-pid_t number_by_the_system() { return static_cast<pid_t>(syscall(SYS_getpid)); }
+pid_t id_by_the_system() { return static_cast<pid_t>(syscall(SYS_getpid)); }
 
 // What a child finds, told by the code that it ends with.
 template <class Work>
@@ -24,23 +24,23 @@ int code_of_child(const Work& work) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(ProcessNumber, IsThatOfTheSystem) {
-    keep_process_number();
-    keep_process_number();
-    EXPECT_EQ(getpid(), number_by_the_system());
+TEST(ProcessId, IsThatOfTheSystem) {
+    keep_process_id();
+    keep_process_id();
+    EXPECT_EQ(getpid(), id_by_the_system());
 }
 
-TEST(ProcessNumber, IsAnotherInAForkedProcess) {
-    keep_process_number();
+TEST(ProcessId, IsAnotherInAForkedProcess) {
+    keep_process_id();
     const pid_t parent = getpid();
-    const auto right = [&] { return getpid() != parent && getpid() == number_by_the_system(); };
+    const auto right = [&] { return getpid() != parent && getpid() == id_by_the_system(); };
     EXPECT_EQ(code_of_child([&] { return right() ? code_of_child([&] { return right() ? 7 : 1; }) : 2; }), 7);
 }
 
 // A library finds what the whole program has.
-TEST(ProcessNumber, IsAskedOfUsByLibraries) {
+TEST(ProcessId, IsAskedOfUsByLibraries) {
     Dl_info ours{}, theirs{};
-    ASSERT_NE(dladdr(reinterpret_cast<const void*>(&keep_process_number), &ours), 0);
+    ASSERT_NE(dladdr(reinterpret_cast<const void*>(&keep_process_id), &ours), 0);
     ASSERT_NE(dladdr(dlsym(RTLD_DEFAULT, "getpid"), &theirs), 0);
     EXPECT_EQ(std::string(theirs.dli_fname), ours.dli_fname);
 }
