@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <ostream>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/in_quotes.hpp"
 #include "core/base/own_files.hpp"
+#include "core/base/temporary_folder.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "core/network/graph/graph_film.hpp"
@@ -32,24 +32,6 @@ constexpr double free_part = 0.8;              // of a host's memory, for what n
 constexpr std::uint32_t rehearsed_side = 128;  // pixels
 constexpr std::uint32_t rehearsed_samples = 4;
 
-/// A folder for the picture of a rehearsal.
-class RehearsalFolder {
-public:
-    RehearsalFolder() : path_(new_folder_in(folders_of_last_resort().front())) {
-        if (path_.empty()) throw Error("no folder for a rehearsal", "in " + folders_of_last_resort().front());
-    }
-    ~RehearsalFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    RehearsalFolder(const RehearsalFolder&) = delete;
-    RehearsalFolder& operator=(const RehearsalFolder&) = delete;
-    std::string file(const char* name) const { return (path_ / name).string(); }
-
-private:
-    std::filesystem::path path_;
-};
-
 // As large as the picture, but for its scale.
 PictureSize small_size(const Graph& graph, const Registry& registry) {
     const auto film = film_of(graph, registry);
@@ -67,7 +49,7 @@ OtherPicture wanted_picture(const Graph& graph, const Registry& registry, std::u
 // What it prepares is kept in the cache, where the run itself finds it.
 RunCosts rehearsed(const RunningOptions& running, const Launcher& launcher, const Loaded& loaded) {
     launcher.err << "rehearsing for the layout: few samples of a small picture\n";
-    const RehearsalFolder folder;
+    const TemporaryFolder folder("rehearsal");
     RunningOptions small;
     small.seed = running.seed;
     small.tuning = running.tuning;
@@ -75,14 +57,14 @@ RunCosts rehearsed(const RunningOptions& running, const Launcher& launcher, cons
     small.progress = ProgressMode::none;
     small.threads = std::max(2u, usable_cores());
     small.forget = true;
-    small.picture.output = folder.file("rehearsal.exr");
+    small.picture.output = folder.path() + "/rehearsal.exr";
     small.picture.size = small_size(loaded.graph, launcher.registry);
     small.picture.samples = rehearsed_samples;
     Written written{loaded.graph, {}, {}};
     Loaded some = validate_job(std::move(written), small.picture, launcher.registry);
     if (const int code = launcher.run(request_of(small, launcher, std::move(some))); code != 0)
         throw Error("the rehearsal for the layout", "has ended with code " + std::to_string(code));
-    const auto run = read_recorded_run(folder.file("rehearsal.run.json"), launcher.registry);
+    const auto run = read_recorded_run(folder.path() + "/rehearsal.run.json", launcher.registry);
     return scaled(run.costs, wanted_picture(loaded.graph, launcher.registry, running.tuning.tile));
 }
 
