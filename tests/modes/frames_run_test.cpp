@@ -162,16 +162,20 @@ TEST_F(FramesRun, SaysWhatIsWrongBeforeItBegins) {
 
 TEST_F(FramesRun, BecomesAFilmByFfmpegOrElseNumberedPictures) {
     ASSERT_EQ(film("1-2", "shot.####.exr").code, 0);
-    const auto made = [&](const std::string& path) {
+    const auto made = [&](const std::string& path, const std::string& name = "film.mp4") {
         Process process({"/bin/sh", "-c",
                          "PATH='" + path + "' '" + program("lightnet") + "' film '" + folder.file("shot.####.exr") +
-                             "' --fps 12 -o '" + folder.file("film.mp4") + "'"});
+                             "' --fps 12 -o '" + folder.file(name) + "'"});
         EXPECT_EQ(process.wait(), 0) << process.output();
         return process.output();
     };
     EXPECT_THAT(made("/nowhere"), HasSubstr("ffmpeg is not installed, so the film is 2 numbered pictures: "));
     EXPECT_TRUE(std::filesystem::exists(folder / "film.0002.png"));
     EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4"));
+    const auto beside = bytes_of(folder / "shot.0002.png");
+    made("/nowhere", "shot.mp4");
+    EXPECT_TRUE(std::filesystem::exists(folder / "shot.film.0002.png"));
+    EXPECT_TRUE(bytes_of(folder / "shot.0002.png") == beside) << "that of the frame";
     const auto fake = folder.write("bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho \"$@\" > \"$last\"\n");
     std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
     EXPECT_THAT(made(folder.file("bin") + ":/usr/bin:/bin"), HasSubstr("2 frames in "));

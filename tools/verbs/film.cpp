@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/frame_name.hpp"
+#include "core/base/own_files.hpp"
 #include "core/base/temporary_folder.hpp"
 #include "tools/cli/frames.hpp"
 #include "tools/cli/launcher.hpp"
@@ -74,10 +75,11 @@ int write_film(const FilmOptions& options, const std::vector<FrameFile>& frames,
         launcher.err << frames.size() << " frames in " << film << '\n';
         return exit_code::done;
     }
-    const auto instead = std::filesystem::path(film).replace_extension(".film.####.png").string();
-    write_strip(frames, view, instead);
-    launcher.err << "ffmpeg is not installed, so the film is " << frames.size() << " numbered pictures: " << instead
-                 << '\n';
+    auto instead = std::filesystem::path(film).replace_extension(".####.png");
+    if (instead == png_beside(options.pictures)) instead.replace_extension().replace_extension(".film.####.png");
+    write_strip(frames, view, instead.string());
+    launcher.err << "ffmpeg is not installed, so the film is " << frames.size()
+                 << " numbered pictures: " << instead.string() << '\n';
     return exit_code::done;
 }
 
