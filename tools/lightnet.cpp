@@ -12,6 +12,7 @@
 #include "tools/cli/launcher.hpp"
 #include "tools/session/run.hpp"
 #include "tools/session/sequence.hpp"
+#include "tools/session/session.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/plugins.hpp"
 #include "tools/support/signals.hpp"
@@ -31,6 +32,7 @@ int perform(const std::vector<std::string>& words) try {
     launcher.run_sequence = [&](lightnet::Sequence sequence) {
         return lightnet::run_sequence(std::move(sequence), registry);
     };
+    launcher.run_session = [&](const lightnet::Session& session) { return lightnet::run_session(session, registry); };
     launcher.plug = [&](const std::vector<std::string>& files) {
         lightnet::load_plugins(files, registry);
         lightnet::pass_on_plugins(files);

@@ -133,6 +133,19 @@ TEST_F(FilmStepsTest, GoesOnLaterToTheSameBytes) {
     }
 }
 
+TEST_F(FilmStepsTest, BeginWithASampleWhereSomebodyWaits) {
+    for (const float error : {0.f, 0.05f}) {
+        FilmSteps steps(format_of(300, error), tile_side);
+        steps.quick_first();
+        auto tiles = steps.next(now());
+        for (const Tile& tile : tiles) steps.film().add(tile, rendered(tile));
+        go_on(steps, 0);
+        EXPECT_TRUE(steps.finished());
+        EXPECT_EQ(tiles.front().samples, 1u);
+        EXPECT_TRUE(steps.picture().picture() == at_once(300, error));
+    }
+}
+
 TEST_F(FilmStepsTest, LooksAtEachGroupOfBlocksWhereThatIsWanted) {
     FilmSteps steps(format_of(300), tile_side);
     steps.by_groups();

@@ -12,6 +12,7 @@
 #include "tools/cli/verb.hpp"
 #include "tools/request/run_request.hpp"
 #include "tools/request/sequence.hpp"
+#include "tools/request/session.hpp"
 #include "tools/support/command_line.hpp"
 #include "tools/support/program_text.hpp"
 
@@ -29,6 +30,8 @@ struct Launcher {
     Settings settings = {};  // of options that command lines leave open
     /// Renders a sequence; an exit code. None: a launcher of stills.
     std::function<int(Sequence)> run_sequence = {};
+    /// Renders a graph while it is edited; an exit code. None: a launcher without sessions.
+    std::function<int(const Session&)> run_session = {};
 
     /// Runs a command line (without the program's name) and returns the exit code; never throws.
     int operator()(const std::vector<std::string>& arguments) const;

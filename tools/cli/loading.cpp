@@ -94,6 +94,13 @@ Written read_files(const GraphOptions& graph, const std::string& hosts) {
     return with_hosts(std::move(file.graph), std::move(file.problems), hosts);
 }
 
+Written read_files(const GraphOptions& graph, GraphReader& reader, const Hosts& hosts) {
+    GraphFile file = reader.read(graph.file, {.constants = graph.constants, .frame = graph.frame});
+    return {std::move(file.graph), hosts, std::move(file.problems)};
+}
+
+Hosts read_hosts(const std::string& hosts) { return hosts.empty() ? Hosts{} : named_hosts(hosts); }
+
 Written read_files(const RenderedScene& scene, const std::string& hosts) {
     RenderGraph made = render_graph(scene);
     return with_hosts(std::move(made.graph), std::move(made.problems), hosts);

@@ -9,6 +9,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/kind.hpp"
+#include "lua/graph_reader.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/render.hpp"
 
@@ -22,6 +23,10 @@ struct Written {
 };
 
 Written read_files(const GraphOptions& graph, const std::string& hosts);
+/// For a process with threads: the graph as `reader` reads it. A hosts file is no graph, so `hosts` are there already.
+Written read_files(const GraphOptions& graph, GraphReader& reader, const Hosts& hosts);
+/// Those of a hosts file, or of addresses with commas between them; "": none. Throws UserError.
+Hosts read_hosts(const std::string& hosts);
 /// For `lightnet render`. Evaluates Lua, so call it before the scene is read: reading starts threads, and Lua runs in
 /// a child, which would have nothing of them but their locks.
 Written read_files(const RenderedScene& scene, const std::string& hosts);

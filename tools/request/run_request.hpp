@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,6 +53,13 @@ struct FrameOfSequence {
     std::chrono::steady_clock::time_point begun{};  // the sequence
 };
 
+/// What was written of a run's picture. A value.
+struct PictureShown {
+    double samples = 0;  // per pixel, on average
+    bool finished = false;
+    std::vector<std::string> warnings;  // of the run, so far
+};
+
 /// A run, ready to go.
 struct RunRequest {
     Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
@@ -85,6 +93,9 @@ struct RunRequest {
     std::optional<WatchAddress> viewer;         // tev, to be shown the picture while it grows
     ProgressMode progress = ProgressMode::automatic;
     std::optional<FrameOfSequence> frame;  // none: a still
+    /// Is told whenever the picture was written, which then happens from its first sample on; none: it is written once.
+    /// Called by the run's thread.
+    std::function<void(const PictureShown&)> shown;
 };
 
 }  // namespace lightnet

@@ -19,7 +19,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto host_patience = 5s;  // for hosts that do not answer when the run begins
+constexpr auto host_patience = 5s;     // for hosts that do not answer when the run begins
+constexpr auto known_missing = 200ms;  // where some were not there at the end of the run before, either
 
 // lightnetd stands beside the launcher.
 std::string daemon_program() {
@@ -115,6 +116,7 @@ void Crew::connect() {
 }
 
 void Crew::begin_next(const RunRequest& request, Cluster::Options cluster, std::function<double()> done) {
+    some_missing_ = !cluster_->missing().empty();
     request_ = &request;
     say_ = cluster.say;
     done_ = std::move(done);
@@ -132,6 +134,7 @@ void Crew::begin_next(const RunRequest& request, Cluster::Options cluster, std::
 
 void Crew::gather(const std::atomic<bool>& cancelled, std::optional<std::chrono::milliseconds> most) {
     Cluster::Patience patience{host_patience, host_patience};
+    if (some_missing_) patience.absent = known_missing;
     if (!request_->listen.empty()) patience.nobody = std::max<std::chrono::milliseconds>(request_->wait, host_patience);
     patience.busy = request_->busy_wait;
     patience.most = most;

@@ -48,6 +48,7 @@ private:
     void start_ssh();
     void connect();
     const RunRequest* request_;
+    bool some_missing_ = false;  // hosts, when the last run was over: they may join in mid-run
     std::function<void(const std::string&)> say_;
     std::function<double()> done_;
     std::optional<SpareCache> spare_cache_;  // outlives the workers

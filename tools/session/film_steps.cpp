@@ -68,6 +68,7 @@ std::uint32_t FilmSteps::next_samples(Time now) const {
     if (const auto begun = film_.samples_begun(); in_steps && begun > there_) return limit_.over(now) ? 0 : begun;
     const auto next = limit_.next(there_, wanted_, now);
     if (limit_ || !by_groups_ || next == 0) return next;
+    if (quick_first_ && there_ == 0) return 1;
     const Blocks group = group_of(there_ / samples_per_block);
     return std::min((group.first + group.count) * samples_per_block, wanted_);
 }

@@ -24,6 +24,8 @@ public:
     const TimeLimit& limit() const { return limit_; }
     /// A step for each group of blocks, to look at.
     void by_groups() { by_groups_ = true; }
+    /// The same, and before them one of a single sample, as there is somebody who waits for it.
+    void quick_first() { by_groups_ = quick_first_ = true; }
 
     /// What is being rendered. It stays where it is.
     Film& film() { return film_; }
@@ -56,7 +58,7 @@ private:
     void grow_to(std::uint32_t samples);
 
     std::uint32_t tile_, wanted_;  // pixels, samples
-    bool by_groups_ = false;
+    bool by_groups_ = false, quick_first_ = false;
     TimeLimit limit_;
     Film film_;
     std::optional<Film> last_;   // finished

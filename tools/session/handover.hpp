@@ -36,6 +36,9 @@ public:
     /// UserError with what is wrong with it.
     std::optional<LoadedScene> take(const Job& job, const Registry& registry);
 
+    /// They have changed on the disk, so the next job reads them anew.
+    void forget_files() { drop(); }
+
     /// True for what nobody has said yet.
     bool is_new(const std::string& warning) { return said_.insert(warning).second; }
     /// What became of the last run: its picture was there already.

@@ -44,11 +44,11 @@ const SceneData& data_of(const LoadedScene& scene) { return scene.built ? scene.
 // One run of a checked graph, from its scene to its files.
 class Run {
 public:
-    Run(const RunRequest& request, const Registry& registry, Handover* handover)
+    Run(const RunRequest& request, const Registry& registry, Handover* handover, const Signals& signals)
         : request_(request),
           registry_(registry),
           handover_(handover),
-          signals_(watch_signals()),
+          signals_(signals),
           format_(film_format(request, registry)),
           book_(format_, request.progress, request.tuning.tile, first_page(request, registry, format_),
                 series_of(request)) {}
@@ -152,6 +152,7 @@ int Run::render() {
     }
     book_.show_png(request_.view, scene_overrides(request_.graph, registry_).exposure != 0);
     book_.trace_to(request_.trace);
+    if (request_.shown) book_.show_steps(request_.output, request_.shown);
     if (request_.preview > 0) book_.preview(request_.output, request_.preview);
     take_up_checkpoint(scene);
     if (book_.complete() && book_.is_written(request_.output)) {
@@ -167,7 +168,9 @@ int Run::render() {
     if (!book_.complete() && !end_in_time()) return exit_code::failed;
     book_.phase("write");
     book_.name_bad_light(job_.graph);
-    return finish_run(book_, request_, scene_overrides(request_.graph, registry_).exposure, signals_.any);
+    const int code = finish_run(book_, request_, scene_overrides(request_.graph, registry_).exposure, signals_.any);
+    if (code == exit_code::done) book_.tell_shown(true);
+    return code;
 }
 
 // What is there becomes the picture, whatever it is; its checkpoint first, as that is what costs most to lose. In
@@ -187,6 +190,7 @@ std::string Run::write_what_is_there(std::optional<std::chrono::duration<double>
 }
 
 int Run::cancelled() {
+    if (signals_.superseded) return book_.end_checkpoint(false), exit_code::interrupted;
     const auto there = write_what_is_there(time_to_end(signals_), "cancelled");
     std::cerr << "cancelled: " << there << '\n';
     return exit_code::interrupted;
@@ -282,8 +286,8 @@ void Run::report_failure() {
 
 }  // namespace
 
-int run(const RunRequest& request, const Registry& registry, Handover* handover) try {
-    return Run(request, registry, handover).perform();
+int run(const RunRequest& request, const Registry& registry, Handover* handover, const Signals& signals) try {
+    return Run(request, registry, handover, signals).perform();
 } catch (const std::bad_alloc&) {  // whose own words are none
     const auto film = film_of(request.graph, registry);
     throw Error(

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,6 +22,7 @@
 #include "core/run/message/counters.hpp"
 #include "tools/pictures/error_curve.hpp"
 #include "tools/pictures/picture_notes.hpp"
+#include "tools/request/run_request.hpp"
 #include "tools/session/checkpoint_keeper.hpp"
 #include "tools/session/film_steps.hpp"
 #include "tools/support/pace.hpp"
@@ -82,6 +84,10 @@ public:
     void preview(const std::string& exr, double seconds);
     /// With the report, writes there what all places were busy with.
     void trace_to(const std::string& file) { trace_ = file; }
+    /// From now on, writes the picture after each step, the first of which is quick, and says so.
+    void show_steps(const std::string& exr, std::function<void(const PictureShown&)> shown);
+    /// Says that the picture is written; none: nobody wants to know.
+    void tell_shown(bool finished);
     /// Writes what is there now. "": it is written; else why not.
     std::string preview_now(const std::string& exr);
     /// A preview was written, and no picture since.
@@ -157,6 +163,7 @@ private:
     void write_files(const std::string& exr);
     void write_clean(const std::string& exr);
     std::string write_preview();
+    void write_step();
     void write_trace();
     std::filesystem::path report_file(const std::string& exr, const std::string& outcome) const;
     void end_phase(Pace::Clock::time_point now);
@@ -181,6 +188,8 @@ private:
     bool said_overflow_ = false;
     Watcher* watcher_ = nullptr;
     std::optional<Preview> preview_;
+    std::string step_exr_;
+    std::function<void(const PictureShown&)> shown_;  // none: steps are not written
     bool previewed_ = false;
     std::optional<CheckpointKeeper> checkpoint_;
     std::string trace_;                     // file; "": none

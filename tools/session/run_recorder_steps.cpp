@@ -32,8 +32,30 @@ std::vector<Tile> RunRecorder::next_step() {
     const auto now = Pace::Clock::now();
     auto tiles = steps_.next(now);
     note_error(now);
+    if (shown_ && !tiles.empty()) write_step();
     steps_.begin(Pace::Clock::now());
     return tiles;
+}
+
+void RunRecorder::show_steps(const std::string& exr, std::function<void(const PictureShown&)> shown) {
+    steps_.quick_first();
+    step_exr_ = exr;
+    shown_ = std::move(shown);
+}
+
+// What is lost of it comes with the next step.
+void RunRecorder::write_step() {
+    if (!covered()) return;
+    try {
+        write_files(step_exr_);
+        tell_shown(false);
+    } catch (const Error& error) {
+        alert(std::string("the picture so far isn't shown: ") + error.what());
+    }
+}
+
+void RunRecorder::tell_shown(bool finished) {
+    if (shown_) shown_({steps_.picture().mean_samples(), finished, report_.warnings});
 }
 
 // Of the picture that would be written now, unless that has been noted.

@@ -20,13 +20,12 @@
 #include "tools/session/run.hpp"
 #include "tools/session/sequence_report.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/support/pace.hpp"
 
 namespace lightnet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
 
 /// Does a scene move? It does where its file holds animations.
 class Motion {

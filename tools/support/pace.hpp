@@ -1,10 +1,15 @@
-// A periodic timer for work that takes time itself.
+// Time that passes, and a periodic timer for work that takes time itself.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
 
 namespace lightnet {
+
+/// Seconds from then until now.
+inline double seconds_since(std::chrono::steady_clock::time_point then) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
 
 /// Once every period, or more seldom where it takes long.
 class Pace {

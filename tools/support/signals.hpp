@@ -9,10 +9,11 @@ namespace lightnet {
 
 /// Set by signal handlers, read by loops.
 struct Signals {
-    std::atomic<bool> any{false};                         // one of those below came
+    std::atomic<bool> any{false};                         // one of those below came: the picture is not wanted
     std::atomic<bool> interrupted{false};                 // SIGINT: stop now
     std::atomic<bool> terminated{false};                  // the others: finish what is under way, then stop
-    std::atomic<std::chrono::steady_clock::rep> came{0};  // the first one: when
+    std::atomic<bool> superseded{false};                  // no signal: another picture is wanted instead
+    std::atomic<std::chrono::steady_clock::rep> came{0};  // the first signal: when
 };
 
 /// From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 (by which Slurm warns of its time limit) set flags; a second one

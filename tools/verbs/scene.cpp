@@ -23,13 +23,12 @@
 #include "tools/cli/render.hpp"
 #include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/support/pace.hpp"
 
 namespace lightnet {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 std::string mebibytes(std::uint64_t bytes) { return fmt::format("{:.1f} MiB", double(bytes) / (1 << 20)); }
 

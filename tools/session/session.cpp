@@ -1,0 +1,177 @@
+#include "tools/session/session.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/json.hpp"
+#include "core/base/json_tree.hpp"
+#include "tools/session/edit_queue.hpp"
+#include "tools/session/handover.hpp"
+#include "tools/session/run.hpp"
+#include "tools/support/exit_code.hpp"
+#include "tools/support/pace.hpp"
+
+namespace lightnet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Tells the other side what happens.
+class Events {
+public:
+    explicit Events(std::ostream* out) : out_(out) {}
+
+    /// False: nobody is there any more.
+    bool sound() const { return !out_ || out_->good(); }
+
+    void tell(const std::string& event, const std::string& words, std::map<std::string, JsonTree> members = {}) {
+        if (!out_) {
+            std::cerr << words << std::endl;
+            return;
+        }
+        JsonTree line{{"event", event}, {"edit", edits_}};
+        if (!id_.empty()) line["id"] = JsonTree(parse_json(id_));
+        for (auto& [name, value] : members) line[name] = std::move(value);
+        *out_ << to_text(line) << std::endl;
+    }
+    void tell(const UserError& error) {
+        JsonTree problems = JsonTree::list();
+        for (const auto& [where, what] : error.problems())
+            problems.push_back({{"file", where.file}, {"line", where.line}, {"what", what}});
+        tell("error", error.what(), {{"problems", std::move(problems)}});
+    }
+    void tell(const std::exception& error) { tell(UserError({"session", 0}, error.what())); }
+    /// What is told next belongs to another edit; `id`: as JSON, "": it has none.
+    void begin(const std::string& id) { ++edits_, id_ = id; }
+
+private:
+    std::ostream* out_;
+    std::uint64_t edits_ = 0;
+    std::string id_;
+};
+
+class SessionRun {
+public:
+    SessionRun(const Session& session, const Registry& registry)
+        : session_(session),
+          registry_(registry),
+          graph_(std::filesystem::absolute(session.graph).lexically_normal().string()),
+          files_{session.graph},
+          queue_(session.edits),
+          events_(session.events) {}
+
+    int perform() {
+        queue_.watch(files_);
+        while (true) {
+            const int code = render();
+            if (stopped()) return leave(exit_code::interrupted);
+            if (!events_.sound()) return exit_code::failed;
+            if (ends_ && !queue_.signals().superseded) return leave(code);
+            queue_.wait();
+            if (stopped()) return leave(exit_code::interrupted);
+            if (!take_news()) return leave(code);
+        }
+    }
+
+private:
+    // False: nothing is new, and nothing can be.
+    bool take_news() {
+        const auto news = queue_.take();
+        ends_ |= news.ended;
+        if (news.lines.empty() && news.files.empty()) return !ends_;
+        edited_ = Clock::now();
+        if (!news.files.empty()) events_.begin("");
+        const bool scene_too = news.files.size() > 1 || !news.files.contains(graph_);
+        if (!news.files.empty() && scene_too) handover_.forget_files();
+        for (const auto& line : news.lines) take_line(line);
+        return true;
+    }
+
+    void take_line(const std::string& line) {
+        try {
+            const Edit edit = edit_of(line);
+            events_.begin(edit.id);
+            take(edit, edits_);
+            ends_ |= edit.end;
+        } catch (const Error& error) {
+            events_.begin("");
+            events_.tell(UserError({"edit", 0}, error.what()));
+        }
+    }
+
+    int render() {
+        int code = exit_code::usage;
+        try {
+            RunRequest request = session_.request(edits_);
+            files_.insert(request.scene);
+            request.shown = [this, &request](const PictureShown& shown) { tell(request, shown); };
+            code = run(request, registry_, &handover_, queue_.signals());
+        } catch (const UserError& error) {
+            events_.tell(error);
+        } catch (const Error& error) {
+            code = exit_code::failed;
+            events_.tell(error);
+        }
+        look_after_files();
+        return code;
+    }
+
+    // Those of a scene that can't be read stay in view, as they will be mended.
+    void look_after_files() {
+        if (const auto& read = handover_.read()) {
+            files_ = {session_.graph};
+            for (const auto& [file, bytes] : read->files.seen()) files_.insert(file);
+        }
+        queue_.watch(files_);
+    }
+
+    bool stopped() const { return queue_.signals().interrupted || queue_.signals().terminated; }
+
+    void tell(const RunRequest& request, const PictureShown& shown) {
+        look_after_files();
+        const double seconds = seconds_since(edited_);
+        JsonTree warnings = JsonTree::list();
+        for (const auto& warning : shown.warnings) warnings.push_back(warning);
+        events_.tell("picture",
+                     fmt::format("{}: {:.10g} samples per pixel, {:.2f} s{}", request.output, shown.samples, seconds,
+                                 shown.finished ? "" : " so far"),
+                     {{"file", request.output},
+                      {"samples", shown.samples},
+                      {"finished", shown.finished},
+                      {"seconds", seconds},
+                      {"warnings", std::move(warnings)}});
+    }
+
+    int leave(int code) {
+        events_.tell("end", "the session is over");
+        return code;
+    }
+
+    const Session& session_;
+    const Registry& registry_;
+    const std::string graph_;      // its file, by its absolute name
+    std::set<std::string> files_;  // of the graph, and of the scene that was read last
+    GraphEdits edits_;
+    Handover handover_;
+    EditQueue queue_;
+    Events events_;
+    Clock::time_point edited_ = Clock::now();
+    bool ends_ = false;  // with the picture at work
+};
+
+}  // namespace
+
+int run_session(const Session& session, const Registry& registry) { return SessionRun(session, registry).perform(); }
+
+}  // namespace lightnet
