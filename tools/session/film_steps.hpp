@@ -24,7 +24,7 @@ public:
     const TimeLimit& limit() const { return limit_; }
     /// A step for each group of blocks, to look at.
     void by_groups() { by_groups_ = true; }
-    /// The same, and before them one of a single sample, as there is somebody who waits for it.
+    /// Steps by groups, too, after a first one of a single sample, as there is somebody who waits for it.
     void quick_first() { by_groups_ = quick_first_ = true; }
 
     /// What is being rendered. It stays where it is.

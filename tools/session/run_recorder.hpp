@@ -160,7 +160,7 @@ private:
         bool said = false;
     };
     Picture picture_now() const;
-    void write_files(const std::string& exr);
+    void write_files(const std::string& exr, bool quickly = false);
     void write_clean(const std::string& exr);
     std::string write_preview();
     void write_step();

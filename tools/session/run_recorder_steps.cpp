@@ -47,7 +47,7 @@ void RunRecorder::show_steps(const std::string& exr, std::function<void(const Pi
 void RunRecorder::write_step() {
     if (!covered()) return;
     try {
-        write_files(step_exr_);
+        write_files(step_exr_, true);
         tell_shown(false);
     } catch (const Error& error) {
         alert(std::string("the picture so far isn't shown: ") + error.what());
