@@ -16,6 +16,18 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{4} << 20;
 
+std::string text_from(int descriptor) {
+    std::string text;
+    std::array<char, 65536> buffer;
+    for (ssize_t size = 0; (size = ::read(descriptor, buffer.data(), buffer.size())) != 0;) {
+        if (size < 0 && errno == EINTR) continue;
+        if (size < 0) throw Error(std::strerror(errno));
+        text.append(buffer.data(), static_cast<std::size_t>(size));
+        if (text.size() > most_bytes) throw Error("longer than 4 MiB");
+    }
+    return text;
+}
+
 /// A plain file, open for reading.
 class OpenFile {
 public:
@@ -31,14 +43,7 @@ public:
         struct stat facts {};
         if (::fstat(number_, &facts) != 0) throw Error(std::strerror(errno));
         if (!S_ISREG(facts.st_mode)) throw Error("not a plain file");
-        std::string text;
-        std::array<char, 65536> buffer;
-        for (ssize_t size = 0; (size = ::read(number_, buffer.data(), buffer.size())) != 0;) {
-            if (size < 0) throw Error(std::strerror(errno));
-            text.append(buffer.data(), static_cast<std::size_t>(size));
-            if (text.size() > most_bytes) throw Error("longer than 4 MiB");
-        }
-        return text;
+        return text_from(number_);
     }
 
     // Asked of the open file, so that nobody can swap a link between the question and the reading.
@@ -53,6 +58,8 @@ private:
 }  // namespace
 
 std::string read_text(const std::string& file) { return OpenFile(file).text(); }
+
+std::string read_standard_input() { return text_from(STDIN_FILENO); }
 
 std::string read_text_inside(const std::string& folder, const std::string& path) {
     const OpenFile file(path);

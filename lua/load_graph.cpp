@@ -1,9 +1,12 @@
 #include "lua/load_graph.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <new>
+#include <set>
 #include <utility>
 
+#include "core/base/in_quotes.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/json.hpp"
 #include "lua/child.hpp"
@@ -88,9 +91,63 @@ Text text_of(const std::string& file) {
     return [file] { return lua::read_text(file); };
 }
 
+// No Lua begins like this.
+bool is_json(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t\r\n");
+    return first != std::string::npos && text[first] == '{';
+}
+
+// What Lua's own globals can't be.
+std::vector<Problem> odd_names(const Graph& graph) {
+    std::vector<Problem> problems;
+    std::set<std::string> names;
+    const auto is_part = [](char c) {
+        return c == '_' || ('0' <= c && c <= '9') || ('a' <= (c | 32) && (c | 32) <= 'z');
+    };
+    for (const auto& [name, kind, entries, params, where] : graph.nodes) {
+        if (name.empty() || ('0' <= name[0] && name[0] <= '9') || !std::all_of(name.begin(), name.end(), is_part))
+            problems.push_back({where, kind + " " + in_quotes(name) + ": a name is made of letters, digits and _"});
+        else if (!names.insert(name).second)
+            problems.push_back({where, kind + " " + in_quotes(name) + ": another node has this name"});
+    }
+    return problems;
+}
+
+GraphFile read_json(const std::string& text, const std::string& file, const LuaOptions& options) {
+    if (!options.constants.empty())
+        throw UserError({file, 0}, "is a graph in JSON, which has no constants: -D " +
+                                       options.constants.begin()->first + " changes nothing in it");
+    if (options.frame.asked)
+        throw UserError({file, 0}, "is a graph in JSON, which is the same in all frames: --frames takes one in Lua");
+    try {
+        Graph graph = graph_from_json(text);
+        auto problems = odd_names(graph);
+        return {std::move(graph), std::move(problems)};
+    } catch (const Error& error) {
+        throw UserError({file, 0}, error.what());
+    }
+}
+
 }  // namespace
 
-GraphFile read_graph(const std::string& file, const LuaOptions& options) { return read(file, text_of(file), options); }
+GraphFile read_graph(const std::string& file, const LuaOptions& options) try {
+    return file.ends_with(".json") ? read_json(lua::read_text(file), file, options)
+                                   : read(file, text_of(file), options);
+} catch (const UserError&) {
+    throw;
+} catch (const Error& error) {
+    throw UserError({file, 0}, error.what());
+}
+
+std::string graph_from_standard_input() try { return lua::read_standard_input(); } catch (const Error& error) {
+    throw UserError({standard_input_name, 0}, error.what());
+}
+
+GraphFile read_graph_text(const std::string& text, const std::string& file, const LuaOptions& options) {
+    if (is_json(text)) return read_json(text, file, options);
+    return read(
+        file, [&] { return text; }, options);
+}
 
 Graph load_graph(const std::string& file, const LuaOptions& options) { return sound(read_graph(file, options)); }
 

@@ -49,8 +49,20 @@ struct GraphFile {
     std::vector<Problem> problems;
 };
 
-/// Forks, so call it before threads are started. Throws UserError when the file can't be run to its end.
+/// Forks, so call it before threads are started. A file whose name ends in ".json" has a graph as to_json() writes it,
+/// see read_graph_text(). Throws UserError when the file can't be run to its end.
 GraphFile read_graph(const std::string& file, const LuaOptions& options = {});
+
+/// What a graph that comes from standard input is called, and what asks for it in the place of a file's name.
+inline constexpr const char* standard_input_name = "<stdin>";
+inline constexpr const char* standard_input_word = "-";
+
+/// All of it, to its end. Throws UserError.
+std::string graph_from_standard_input();
+
+/// As read_graph(), for a text that stands for the file called `file`; or for a graph as to_json() writes it, which
+/// knows its own file and lines, and has no constants and no frames. Throws UserError.
+GraphFile read_graph_text(const std::string& text, const std::string& file, const LuaOptions& options = {});
 
 /// As read_graph(), but throws UserError when there is any problem.
 Graph load_graph(const std::string& file, const LuaOptions& options = {});

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/math/samples.hpp"
+#include "core/film/picture.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
@@ -34,6 +35,14 @@ public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         for (std::size_t i = 0; i < questions.size(); ++i)
             answers[i] = (this->*fact_)(scene_.surface(questions[i]), questions[i]);
+    }
+
+    // As compositing programs expect them.
+    static std::string letters(const Node& node) {
+        const auto& of = std::get<std::string>(node.params.at("of").data);
+        if (of == "depth" || of == "distance") return letters_of_depths;
+        if (of == "position" || of == "normal" || of == "camera_normal") return letters_of_vectors;
+        return of == "uv" ? letters_of_uv : usual_letters;
     }
 
     static std::vector<std::string> names() {
@@ -106,7 +115,7 @@ Kind surface_fact_kind() {
                         "the world; camera_normal: x right, y up, z to the eye; uv: of the texture; albedo: of all "
                         "lobes, towards the eye",
                     .choices = SurfaceFact::names()}},
-        .light = {.facts = true, .paths = always({})},
+        .light = {.facts = true, .letters = SurfaceFact::letters, .paths = always({})},
         .make_light = [](const NodeContext& here) { return std::make_unique<SurfaceFact>(here); },
     };
 }

@@ -10,6 +10,7 @@
 #include <ImfInputFile.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
 #include <half.h>
@@ -122,6 +123,9 @@ Imf::Header header_of(const Picture& picture) {
         if (!names.empty()) header.insert(attribute, Imf::StringVectorAttribute(names));
     };
     insert_notes(header, picture.notes);
+    // The primaries and the white of BT.709 are the library's own; the name is the Color Interop Forum's.
+    Imf::addChromaticities(header, Imf::Chromaticities());
+    insert_text(header, colours_attribute, "lin_rec709_scene");
     for (const auto& matte : picture.mattes) insert_matte(header, matte);
     insert_names(layers_attribute, picture.layers);
     insert_names(shown_attribute, picture.shown);
@@ -138,17 +142,17 @@ public:
     void add(const std::string& name, const float* first, std::size_t step) {
         insert(name, Imf::FLOAT, reinterpret_cast<const char*>(first), step);
     }
-    void add(const std::string& layer, const std::vector<Rgb>& pixels) {
-        for_channels(layer, pixels,
+    void add(const std::vector<std::string>& channels, const std::vector<Rgb>& pixels) {
+        for_channels(channels, pixels,
                      [&](const std::string& name, const float* first) { add(name, first, sizeof(Rgb)); });
     }
-    void add_halves(const std::string& layer, const std::vector<Rgb>& pixels) {
+    void add_halves(const std::vector<std::string>& channels, const std::vector<Rgb>& pixels) {
         auto& halves = halves_.emplace_back();
         halves.reserve(3 * pixels.size());
         for (const Rgb& pixel : pixels)
             for (const float value : {pixel.r, pixel.g, pixel.b}) halves.emplace_back(value);
         const half* next = halves.data();
-        for_channels(layer, pixels, [&](const std::string& name, const float*) {
+        for_channels(channels, pixels, [&](const std::string& name, const float*) {
             insert(name, Imf::HALF, reinterpret_cast<const char*>(next++), 3 * sizeof(half));
         });
     }
@@ -173,10 +177,13 @@ private:
 std::string exr_of(const Picture& picture) {
     Imf::Header header = header_of(picture);
     Channels channels(header);
-    channels.add("", picture.beauty);
-    for (const auto& layer : picture.layers) channels.add(layer.name, layer.pixels);
-    for (const auto& layer : picture.shown)
-        picture.storage.half ? channels.add_halves(layer.name, layer.pixels) : channels.add(layer.name, layer.pixels);
+    channels.add(channels_of(""), picture.beauty);
+    for (const auto& layer : picture.layers) channels.add(channels_of(layer.name, layer.letters), layer.pixels);
+    for (const auto& layer : picture.shown) {
+        const auto names = channels_of(layer.name, layer.letters);
+        may_be_half(picture.storage, layer) ? channels.add_halves(names, layer.pixels)
+                                            : channels.add(names, layer.pixels);
+    }
     for (const auto& matte : picture.mattes)
         for_matte_channels(matte, [&](const std::string& name, const float* first, std::size_t step) {
             channels.add(name, first, step);

@@ -6,6 +6,13 @@
 
 namespace lightnet::exr {
 
+std::vector<std::string> channels_of(const std::string& layer, const std::string& letters) {
+    if (layer == letters) return {layer};
+    std::vector<std::string> channels;
+    for (const char letter : letters) channels.push_back((layer.empty() ? "" : layer + ".") + letter);
+    return channels;
+}
+
 std::string matte_key(const std::string& matte) {
     return std::string(of_mattes) + fmt::format("{:08x}", murmur3(matte)).substr(0, 7);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/film/picture.hpp"
 
@@ -17,6 +18,7 @@ inline constexpr const char* gains_attribute = "gains";
 inline constexpr const char* done_attribute = "done";
 inline constexpr const char* samples_channel = "samples";
 inline constexpr const char* alpha_channel = "A";
+inline constexpr const char* colours_attribute = "colorInteropID";
 inline constexpr std::string_view of_mattes = "cryptomatte/";
 
 /// What the attributes of a matte begin with: seven digits of the hash of its name keep those of several apart.
@@ -24,14 +26,16 @@ std::string matte_key(const std::string& matte);
 /// The channels of two ranks of a matte: "objects00.R" …, for the ids and the parts of both.
 std::array<std::string, 4> matte_channels(const std::string& matte, std::uint32_t level);
 
-/// Calls visit(channel name, pointer to its value in the first pixel) for R, G and B of a plane of pixels.
+/// The channels of a layer: "direct.R", "direct.G", "direct.B"; "N.X" …; "R" … of the beauty, which has no name; and
+/// "Z" alone of one that is called by its only letter.
+std::vector<std::string> channels_of(const std::string& layer, const std::string& letters = usual_letters);
+
+/// Calls visit(channel name, pointer to its value in the first pixel) for each channel of a plane of pixels.
 template <class Plane, class Visit>
-void for_channels(const std::string& layer, Plane& pixels, const Visit& visit) {
-    const std::string prefix = layer.empty() ? "" : layer + ".";
+void for_channels(const std::vector<std::string>& channels, Plane& pixels, const Visit& visit) {
     auto* first = pixels.data();
-    visit(prefix + "R", &first->r);
-    visit(prefix + "G", &first->g);
-    visit(prefix + "B", &first->b);
+    const std::array numbers{&first->r, &first->g, &first->b};
+    for (std::size_t i = 0; i < channels.size(); ++i) visit(channels[i], numbers[i]);
 }
 
 /// Calls visit(channel name, pointer to its value in the first pixel, bytes from pixel to pixel) for all of a matte.

@@ -78,13 +78,26 @@ private:
     Imf::FrameBuffer buffer_;
 };
 
-// One layer; fails if the file lacks a channel of it.
-std::vector<Rgb> read_layer(Imf::InputFile& file, const std::string& layer) {
+bool has_all(const Imf::ChannelList& channels, const std::vector<std::string>& names) {
+    return std::all_of(names.begin(), names.end(), [&](const auto& name) { return channels.findChannel(name); });
+}
+
+// What the channels of a layer end in; the usual letters, where it has none of ours.
+std::string letters_of(const Imf::ChannelList& channels, const std::string& layer) {
+    for (const char* letters : {usual_letters, letters_of_vectors, letters_of_depths, letters_of_uv})
+        if (has_all(channels, channels_of(layer, letters))) return letters;
+    return usual_letters;
+}
+
+// One layer; fails if the file lacks a channel of it. A depth is grey.
+std::vector<Rgb> read_layer(Imf::InputFile& file, const std::string& layer, const std::string& letters) {
     Wanted wanted(file);
     std::vector<Rgb> pixels(wanted.pixels());
-    for_channels(layer, pixels,
+    for_channels(channels_of(layer, letters), pixels,
                  [&](const std::string& name, const float* first) { wanted.add(name, first, sizeof(Rgb)); });
     wanted.read();
+    if (letters == letters_of_depths)
+        for (Rgb& pixel : pixels) pixel = {pixel.r, pixel.r, pixel.r};
     return pixels;
 }
 
@@ -107,8 +120,7 @@ std::uint32_t ranks_of(const std::string& matte, const Imf::ChannelList& channel
     std::uint32_t ranks = 0;
     for (; ranks < most_ranks; ranks += 2) {
         const auto names = matte_channels(matte, ranks / 2);
-        if (!std::all_of(names.begin(), names.end(), [&](const auto& name) { return channels.findChannel(name); }))
-            break;
+        if (!has_all(channels, {names.begin(), names.end()})) break;
     }
     return ranks;
 }
@@ -136,7 +148,8 @@ PictureNotes notes_in(const Imf::Header& header) {
     PictureNotes notes;
     for (auto one = header.begin(); one != header.end(); ++one) {
         const std::string name = one.name();
-        if (const auto* text = text_in(header, name); text && !name.starts_with(of_mattes)) notes.texts[name] = *text;
+        const bool own = name.starts_with(of_mattes) || name == colours_attribute;
+        if (const auto* text = text_in(header, name); text && !own) notes.texts[name] = *text;
         if (const auto* matrix = header.findTypedAttribute<Imf::M44fAttribute>(name.c_str()))
             for (std::size_t i = 0; i < 16; ++i) notes.matrices[name][i] = matrix->value()[int(i / 4)][int(i % 4)];
     }
@@ -150,7 +163,7 @@ PictureStorage storage_of(const Imf::Header& header, const std::vector<PictureLa
     if (const auto number = static_cast<std::size_t>(header.compression()); number < compressions.size())
         storage.compression = compressions[number];
     for (const auto& layer : shown)
-        if (const auto* channel = header.channels().findChannel(layer.name + ".R"))
+        if (const auto* channel = header.channels().findChannel(channels_of(layer.name, layer.letters).front()))
             storage.half = storage.half || channel->type == Imf::HALF;
     return storage;
 }
@@ -183,14 +196,15 @@ Picture read_exr(const std::filesystem::path& path) try {
     expect_pixels(window, path);
     Picture picture{static_cast<std::uint32_t>(window.max.x - window.min.x + 1),
                     static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
-                    read_layer(file, ""),
+                    read_layer(file, "", usual_letters),
                     {}};
     for (auto [attribute, layers] : {std::pair(layers_attribute, &picture.layers), {shown_attribute, &picture.shown}})
         if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(attribute))
             for (const auto& name : names->value()) {
                 if (std::any_of(layers->begin(), layers->end(), [&](const auto& known) { return known.name == name; }))
                     throw Error(path.string(), "is damaged: it names layer " + name + " twice");
-                layers->push_back({name, read_layer(file, name)});
+                const auto letters = letters_of(file.header().channels(), name);
+                layers->push_back({name, read_layer(file, name, letters), {1, 1, 1}, letters});
             }
     read_gains(file.header(), picture.layers);
     picture.samples = read_channel(file, samples_channel);

@@ -62,9 +62,10 @@ struct FilmFormat {
     std::vector<Rgb> gains{};          // of the layers, in the beauty; empty: 1. What samples are spent on knows none
     std::vector<std::string> shown{};  // pictures beside the sum (AOVs): their colours come behind those of the layers
     std::set<std::string> facts{};     // those of `shown` that are no light: exposure is not for them
-    std::map<std::string, std::uint32_t> ids{};  // those of `facts` that are ids: how many a pixel keeps
-    bool alpha = false;                          // the last colour is the part of a pixel that surfaces cover
-    PictureStorage storage{};                    // of the file
+    std::map<std::string, std::uint32_t> ids{};    // those of `facts` that are ids: how many a pixel keeps
+    std::map<std::string, std::string> letters{};  // of those of `shown` whose channels don't have the usual ones
+    bool alpha = false;                            // the last colour is the part of a pixel that surfaces cover
+    PictureStorage storage{};                      // of the file
 
     /// Of one pixel: one for each layer, one or one for each id for what is beside them, and one for alpha.
     std::size_t colours() const { return first_colour(shown.size()) + alpha; }

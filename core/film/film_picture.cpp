@@ -68,9 +68,10 @@ void Film::add_beside(Picture& picture, const Shown& all, std::span<const std::s
             continue;
         }
         auto& layer = picture.shown.emplace_back(PictureLayer{name, std::vector<Rgb>(from.size())});
+        if (const auto own = format_.letters.find(name); own != format_.letters.end()) layer.letters = own->second;
         const float exposed = format_.is_light(first) ? scale : 1;
         for (std::size_t i = 0; i < from.size(); ++i) layer.pixels[i] = mean(i, first) * exposed;
-        if (picture.storage.half) round_to_half(layer.pixels);
+        if (may_be_half(picture.storage, layer)) round_to_half(layer.pixels);
     }
     if (!format_.alpha) return;
     for (std::size_t i = 0; i < from.size(); ++i) picture.alpha.push_back(mean(i, colours - 1).r);

@@ -11,11 +11,18 @@
 
 namespace lightnet {
 
+/// What the channels of files are called: those of colours, of vectors, of depths and of texture coordinates.
+inline constexpr const char* usual_letters = "RGB";
+inline constexpr const char* letters_of_vectors = "XYZ";
+inline constexpr const char* letters_of_depths = "Z";
+inline constexpr const char* letters_of_uv = "UV";
+
 /// One contribution to the picture.
 struct PictureLayer {
     std::string name;
-    std::vector<Rgb> pixels;  // row by row, row 0 on top
-    Rgb gain{1, 1, 1};        // so many times it is in the beauty
+    std::vector<Rgb> pixels;              // row by row, row 0 on top
+    Rgb gain{1, 1, 1};                    // so many times it is in the beauty
+    std::string letters = usual_letters;  // of its channels in files, one for each number of a pixel that counts
     friend bool operator==(const PictureLayer&, const PictureLayer&) = default;
 };
 
@@ -25,6 +32,11 @@ struct PictureStorage {
     bool half = false;                // what is shown beside the sum has half floats (11 bits)
     friend bool operator==(const PictureStorage&, const PictureStorage&) = default;
 };
+
+/// A layer beside the sum has half floats in such a file; depths, which compositing compares, never have.
+inline bool may_be_half(const PictureStorage& storage, const PictureLayer& layer) {
+    return storage.half && layer.letters != letters_of_depths;
+}
 
 /// Ways in which OpenEXR compresses files without a loss.
 const std::vector<std::string>& lossless_compressions();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -20,6 +21,11 @@ std::uint8_t srgb(float linear) {
     if (linear >= 1) return 255;
     const float curve = linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
     return static_cast<std::uint8_t>(std::lround(curve * 255));
+}
+
+// Of a part of a whole, which knows no curve.
+std::uint8_t level_of(float part) {
+    return part > 0 ? static_cast<std::uint8_t>(std::lround(std::min(part, 1.0f) * 255)) : std::uint8_t{0};
 }
 
 // Halves the numbers between 0 and 1 as the integers that they are stored as, which have the same order.
@@ -44,7 +50,7 @@ float filmic_curve(float linear) {
 std::string tone_of(const PngView& view) {
     const auto exposure = view.stops == 0 ? std::string("1") : fmt::format("2^{:.1f}", view.stops);
     return "exposure " + exposure + (view.filmic ? ", filmic curve" : ", clipped to 0..1") +
-           ", sRGB transfer curve, 8 bits";
+           ", sRGB transfer curve, 8 bits" + (view.alpha ? ", alpha" : "");
 }
 
 std::array<float, 255> least_of_levels() {
@@ -55,19 +61,24 @@ std::array<float, 255> least_of_levels() {
 
 std::string png_of(const Picture& picture, const PngView& view) {
     const auto exposure = static_cast<float>(std::exp2(view.stops));
+    const bool with_alpha = view.alpha && !picture.alpha.empty();
     std::vector<std::uint8_t> values;
-    values.reserve(picture.beauty.size() * 3);
-    for (const Rgb& pixel : picture.beauty)
+    values.reserve(picture.beauty.size() * (with_alpha ? 4 : 3));
+    for (std::size_t i = 0; i < picture.beauty.size(); ++i) {
+        const Rgb& pixel = picture.beauty[i];
+        const float covered = with_alpha ? picture.alpha[i] : 1, share = covered > 0 ? covered : 1;
         for (const float channel : {pixel.r, pixel.g, pixel.b}) {
-            const float exposed = channel * exposure;
+            const float exposed = channel * exposure / share;
             values.push_back(srgb(view.filmic ? filmic_curve(exposed) : exposed));
         }
+        if (with_alpha) values.push_back(level_of(covered));
+    }
 
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     image.width = picture.width;
     image.height = picture.height;
-    image.format = PNG_FORMAT_RGB;
+    image.format = with_alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::string bytes(size, '\0');
     if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, values.data(), 0, nullptr))

@@ -13,13 +13,15 @@ namespace lightnet {
 struct PngView {
     double stops = 0;
     bool filmic = false;  // Narkowicz 2016, "ACES Filmic Tone Mapping Curve", per channel
+    bool alpha = false;   // with the picture's alpha, if it has one: colours are then those of what covers the pixel
     friend bool operator==(const PngView&, const PngView&) = default;
 };
 
 /// How linear radiance becomes 8 bits: for reports and for the user to read.
 std::string tone_of(const PngView& view);
 
-/// The bytes of an 8 bit sRGB PNG of the beauty, toned as tone_of() says. NaN is black.
+/// The bytes of an 8 bit sRGB PNG of the beauty, toned as tone_of() says. NaN is black. Where the view has an alpha, so
+/// has the PNG: not premultiplied, as its format wants it, so colours are divided by it before they are toned.
 std::string png_of(const Picture& picture, const PngView& view = {});
 
 /// What a channel must be at least to get each level from 1 on, where there is no other view: so that others may tone

@@ -26,13 +26,14 @@ double rounded_down(double stops) { return std::floor(stops * 10) / 10; }
 
 }  // namespace
 
-Brightness brightness_of(const Picture& picture) {
+Brightness brightness_of(const Picture& picture, double stops) {
     Brightness found;
+    const auto exposure = static_cast<float>(std::exp2(stops));
     std::vector<float> values, lit;
     for (const Rgb& pixel : picture.beauty) {
         float value = 0;  // what is no number is black
         for (const float channel : {pixel.r, pixel.g, pixel.b})
-            if (channel > value) value = channel;
+            if (channel * exposure > value) value = channel * exposure;
         values.push_back(value);
         if (value > 0) lit.push_back(value);
         found.clipped += value > 1;
@@ -63,9 +64,10 @@ std::optional<PictureView> picture_view(std::string_view text) {
     return std::nullopt;
 }
 
-PngView png_view(PictureView wanted, const Brightness& brightness, bool exposed) {
-    const bool chosen = exposed || wanted == PictureView::plain;
-    return {chosen ? 0 : helpful_stops(brightness).value_or(0), wanted == PictureView::filmic};
+PngView png_view(const PngRequest& wanted, const Brightness& brightness, bool exposed) {
+    const bool chosen = exposed || wanted.view == PictureView::plain;
+    const double usual = chosen ? 0 : helpful_stops(brightness).value_or(0);
+    return {wanted.stops.value_or(usual), wanted.view == PictureView::filmic, wanted.alpha};
 }
 
 bool hardly_lit(const Brightness& brightness) { return brightness.black > most && brightness.lit < hardly_any; }

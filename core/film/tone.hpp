@@ -18,7 +18,8 @@ struct Brightness {
     float lit_high = 0;  // 90 % of those that are lit are no brighter
 };
 
-Brightness brightness_of(const Picture& picture);
+/// Of a picture that is made so many stops brighter.
+Brightness brightness_of(const Picture& picture, double stops = 0);
 
 /// More stops by which most of a picture can be seen that is now mostly clipped or mostly black. None: it can be seen
 /// already, or no exposure helps, as next to nothing is lit.
@@ -31,8 +32,16 @@ enum class PictureView { automatic, plain, filmic };
 /// "auto", "plain" or "filmic".
 std::optional<PictureView> picture_view(std::string_view text);
 
-/// `exposed`: somebody has chosen an exposure already, which no other is to change.
-PngView png_view(PictureView wanted, const Brightness& brightness, bool exposed = false);
+/// What the PNG beside a picture is to be like, as its user says.
+struct PngRequest {
+    PngRequest(PictureView wanted = PictureView::automatic) : view(wanted) {}  // a view alone says all that most want
+    PictureView view;
+    std::optional<double> stops{};  // by which it is brighter than the picture; none: as `view` has it
+    bool alpha = false;             // it has the picture's alpha, where that has one
+};
+
+/// `exposed`: somebody has chosen an exposure for the picture already, which no other is to change.
+PngView png_view(const PngRequest& wanted, const Brightness& brightness, bool exposed = false);
 
 /// Most of it is black, and no exposure helps.
 bool hardly_lit(const Brightness& brightness);

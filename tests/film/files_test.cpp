@@ -2,6 +2,7 @@
 #include <ImfChannelList.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -116,6 +117,39 @@ TEST(Exr, NamesMattesAsCryptomatteDoes) {
     EXPECT_FALSE(file.header().channels().findChannel("CryptoObject02.R"));
 }
 
+TEST(Exr, NamesChannelsAsCompositorsExpectThem) {
+    const Folder folder;
+    Picture picture = noisy_picture(2, 1);
+    const auto grey = [](float value) { return Rgb{value, value, value}; };
+    picture.shown = {{"Z", {grey(1 + 0x1p-20f), grey(2)}, {1, 1, 1}, letters_of_depths},
+                     {"depth", {grey(3), grey(4)}, {1, 1, 1}, letters_of_depths},
+                     {"N", {{0, 0, 1}, {1, 0, 0}}, {1, 1, 1}, letters_of_vectors},
+                     {"st", {{0.25f, 0.5f, 0}, {}}, {1, 1, 1}, letters_of_uv}};
+    picture.storage.half = true;
+    write_exr(folder / "x.exr", picture);
+    EXPECT_TRUE(read_exr(folder / "x.exr") == picture);
+    const Imf::InputFile file((folder / "x.exr").c_str());
+    const auto& channels = file.header().channels();
+    for (const char* name : {"Z", "depth.Z", "N.X", "N.Y", "N.Z", "st.U", "st.V"})
+        EXPECT_TRUE(channels.findChannel(name)) << name;
+    for (const char* name : {"Z.Z", "depth.R", "N.R", "st.R", "st.B"}) EXPECT_FALSE(channels.findChannel(name)) << name;
+    EXPECT_EQ(channels.findChannel("Z")->type, Imf::FLOAT) << "depths are compared";
+    EXPECT_EQ(channels.findChannel("N.X")->type, Imf::HALF);
+}
+
+TEST(Exr, SaysWhichColoursItHas) {
+    const Folder folder;
+    write_exr(folder / "x.exr", noisy_picture(2, 1));
+    const Imf::InputFile file((folder / "x.exr").c_str());
+    ASSERT_TRUE(Imf::hasChromaticities(file.header()));
+    const auto& found = Imf::chromaticities(file.header());
+    EXPECT_EQ(found.red, Imath::V2f(0.64f, 0.33f));
+    EXPECT_EQ(found.white, Imath::V2f(0.3127f, 0.3290f));
+    const auto* name = file.header().findTypedAttribute<Imf::StringAttribute>("colorInteropID");
+    ASSERT_TRUE(name);
+    EXPECT_EQ(name->value(), "lin_rec709_scene");
+}
+
 TEST(Exr, KeepsHalfFloatsWithinTheirRange) {
     std::vector<Rgb> pixels{{1e9f, -1e9f, 1 + 0x1p-12f}};
     round_to_half(pixels);
@@ -147,9 +181,10 @@ TEST(Exr, SaysNothingOfWhenWhereOrByWhom) {
     const Imf::InputFile file((folder / "x.exr").c_str());
     std::vector<std::string> attributes;
     for (auto one = file.header().begin(); one != file.header().end(); ++one) attributes.emplace_back(one.name());
-    EXPECT_THAT(attributes, ::testing::UnorderedElementsAre("channels", "compression", "dataWindow", "displayWindow",
-                                                            "layers", "lineOrder", "pixelAspectRatio",
-                                                            "screenWindowCenter", "screenWindowWidth"));
+    EXPECT_THAT(attributes,
+                ::testing::UnorderedElementsAre("channels", "chromaticities", "colorInteropID", "compression",
+                                                "dataWindow", "displayWindow", "layers", "lineOrder",
+                                                "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth"));
 }
 
 TEST(Exr, ShowsWhereACropLies) {
@@ -214,11 +249,11 @@ TEST(Exr, SaysWhichFileItCannotRead) {
     EXPECT_THROW(read_exr(folder / "absent.exr"), Error);
 }
 
-std::vector<std::uint8_t> decoded(const std::string& bytes) {
+std::vector<std::uint8_t> decoded(const std::string& bytes, png_uint_32 format = PNG_FORMAT_RGB) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     EXPECT_TRUE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size())) << image.message;
-    image.format = PNG_FORMAT_RGB;
+    image.format = format;
     std::vector<std::uint8_t> values(PNG_IMAGE_SIZE(image));
     EXPECT_TRUE(png_image_finish_read(&image, nullptr, values.data(), 0, nullptr)) << image.message;
     return values;
@@ -242,6 +277,20 @@ TEST(Png, RunsIntoWhiteByAFilmicCurve) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), far = std::numeric_limits<float>::infinity();
     const Picture picture{2, 1, {{0.18f, 1, 20}, {nan, -1, far}}, {}};
     EXPECT_THAT(decoded(png_of(picture, {0, true})), ::testing::ElementsAre(141, 232, 255, 0, 0, 255));
+}
+
+// sRGB of 0.5 is 188; what covers half of a pixel has its own colour there, as PNG is not premultiplied.
+TEST(Png, HasAnAlphaWhereItIsAskedFor) {
+    Picture picture;
+    picture.width = 3, picture.height = 1;
+    picture.beauty = {{0.5f, 0.25f, 0}, {0.5f, 0.5f, 0.5f}, {}};
+    PngView view;
+    view.alpha = true;
+    EXPECT_EQ(png_of(picture, view), png_of(picture)) << "the picture has none";
+    picture.alpha = {1, 0.5f, 0};
+    EXPECT_THAT(decoded(png_of(picture, view), PNG_FORMAT_RGBA),
+                ::testing::ElementsAre(188, 137, 0, 255, 255, 255, 255, 128, 0, 0, 0, 0));
+    EXPECT_THAT(decoded(png_of(picture)), ::testing::ElementsAre(188, 137, 0, 188, 188, 188, 0, 0, 0));
 }
 
 TEST(Png, HasTheSameBytesEachTime) { EXPECT_EQ(png_of(noisy_picture(20, 10)), png_of(noisy_picture(20, 10))); }

@@ -63,6 +63,15 @@ TEST(PictureView, ChoosesAnExposureUnlessSomebodyHas) {
         << "what can be seen stays as it is";
 }
 
+TEST(PngRequest, HasTheLastWordAboutTheExposure) {
+    const auto dark = brightness_of(two_greys(0.9, 0.0001f, 0));
+    PngRequest wanted = PictureView::filmic;
+    wanted.stops = -1;
+    wanted.alpha = true;
+    for (const bool exposed : {false, true}) EXPECT_EQ(png_view(wanted, dark, exposed), (PngView{-1, true, true}));
+    EXPECT_EQ(brightness_of(two_greys(0.25, 1, 0.00001f), 1).clipped, 0.25);
+}
+
 TEST(PictureView, GoesByName) {
     EXPECT_EQ(picture_view("auto"), PictureView::automatic);
     EXPECT_EQ(picture_view("plain"), PictureView::plain);

@@ -162,6 +162,42 @@ TEST(Require, TellsTheLineInTheRequiredFile) {
     EXPECT_THAT(error_of([&] { load_graph(file); }), HasSubstr(folder.file("bad.lua") + ":3: unexpected symbol"));
 }
 
+TEST(ReadGraphText, TakesAGraphInJsonWithTheLinesOfItsMaker) {
+    Graph graph = parse("sky = Ambient { rays = 4 }");
+    graph.file = "notebook.py";
+    graph.nodes[0].where = {"notebook.py", 17};
+    const auto read = read_graph_text("\n " + to_json(graph), standard_input_name);
+    EXPECT_EQ(read.graph, graph);
+    EXPECT_TRUE(read.problems.empty());
+}
+
+TEST(ReadGraphText, IsWhatFilesOfJsonGoThrough) {
+    const Folder folder;
+    const Graph graph = parse("sky = Ambient { rays = 4 }");
+    EXPECT_EQ(read_graph(folder.write("graph.json", to_json(graph))).graph, graph);
+    EXPECT_THAT(error_of([&] { read_graph(folder.file("none.json")); }), HasSubstr("none.json: No such file"));
+}
+
+TEST(ReadGraphText, HoldsNamesInJsonToThoseOfLua) {
+    Graph graph = parse("sky = Ambient {}\nsum = Combine { sky }\nother = Ambient {}");
+    graph.nodes[1].name = "sky";
+    graph.nodes[2].name = "my sky";
+    const auto problems = read_graph_text(to_json(graph), standard_input_name).problems;
+    ASSERT_EQ(problems.size(), 2u);
+    EXPECT_EQ(to_string(problems[0]), "graph.lua:2: Combine 'sky': another node has this name");
+    EXPECT_EQ(to_string(problems[1]), "graph.lua:3: Ambient 'my sky': a name is made of letters, digits and _");
+}
+
+TEST(ReadGraphText, SaysWhatIsWrongWithJson) {
+    const auto error = [](const std::string& text, const LuaOptions& options = {}) {
+        return error_of([&] { read_graph_text(text, standard_input_name, options); });
+    };
+    EXPECT_THAT(error("{ \"file\": 3"), HasSubstr("<stdin>: "));
+    EXPECT_THAT(error("{ \"nodes\": [] }"), HasSubstr("<stdin>: "));
+    EXPECT_THAT(error("{}", {.constants = {{"rays", "4"}}}), HasSubstr("-D rays changes nothing in it"));
+    EXPECT_THAT(error("{}", {.frame = {.asked = true}}), HasSubstr("--frames takes one in Lua"));
+}
+
 TEST(Require, ReachesNothingElse) {
     const Folder outside, folder;
     outside.write("secret.lua", "return 1");

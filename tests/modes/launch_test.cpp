@@ -4,6 +4,7 @@
 #include <csignal>
 #include <fstream>
 
+#include "core/film/exr.hpp"
 #include "tests/modes/daemons.hpp"
 #include "tests/support/pixels_in.hpp"
 
@@ -133,6 +134,31 @@ TEST(Launch, ShowsInThePngWhatIsTooDarkOrTooBrightAndLeavesTheExrAsItIs) {
     EXPECT_NE(hidden.said.find("stops brighter than the EXR"), std::string::npos) << hidden.said;
     EXPECT_NE(hidden.report.find("exposure 2^"), std::string::npos) << hidden.report;
     EXPECT_EQ(rendered("1", {}).second, rendered("1", {"--view", "plain"}).second) << "what can be seen stays as it is";
+}
+
+TEST(Launch, ExposesThePngAlone) {
+    const Folder folder;
+    const auto rendered = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"--size", "16x16", "--samples", "2", "--forget"};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto run = launch(graph_file("cornell.lua"), folder, words);
+        EXPECT_EQ(run.code, 0) << run.said;
+        return std::pair(run.picture, bytes_of(folder / "picture.png"));
+    };
+    const auto usual = rendered({}), bright = rendered({"--exposure", "1.5"});
+    EXPECT_TRUE(usual.first == bright.first);
+    EXPECT_FALSE(usual.second == bright.second);
+}
+
+TEST(Launch, KeepsWhatIsCoveredWhereAlphaIsAskedFor) {
+    const Folder folder;
+    const auto run = launch(graph_file("studio.lua"), folder, {"--size", "24x18", "--samples", "4", "--alpha"});
+    ASSERT_EQ(run.code, 0) << run.said;
+    const auto png = bytes_of(folder / "picture.png");
+    constexpr std::size_t colour_type = 25;
+    constexpr char with_alpha = 6;  // PNG, section 11.2.2
+    EXPECT_EQ(png.at(colour_type), with_alpha);
+    EXPECT_FALSE(read_exr(folder / "picture.exr").alpha.empty());
 }
 
 TEST(Launch, LooksThroughTheCameraThatIsChosen) {

@@ -48,7 +48,11 @@ for name in ("worldtocamera", "worldtoNDC"):
     expect(found and len(attributes[found[0]]) == 16, f"no matrix {name}")
 for name in ("seed", "graph"):
     expect(attributes.get(name), f"nothing of {name}")
-expect(formats[channels["depth.R"]] == OpenImageIO.HALF, "depth should have half floats")
+expect(formats[channels["depth.Z"]] == OpenImageIO.FLOAT, "depth should have float32")
+expect(formats[channels["normal.X"]] == OpenImageIO.HALF, "normals should have half floats")
+expect(attributes.get("colorInteropID") == "lin_rec709_scene", "its colours should have a name")
+primaries = (0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329)
+expect(numpy.allclose(attributes.get("chromaticities", 8 * [0]), primaries), "its primaries should be those of BT.709")
 expect(formats[channels["R"]] == OpenImageIO.FLOAT, "the beauty should have float32")
 
 keys = sorted({key.split("/")[1] for key in attributes if key.startswith("cryptomatte/")})

@@ -91,17 +91,19 @@ TEST(Render, TakesTheOptionsOfRun) {
     EXPECT_EQ(run.mode, Mode::network);
     EXPECT_EQ(run.graph.nodes[1].kind, "AmbientOcclusion");
     EXPECT_EQ(lightnet.overrides().environment, (std::variant<std::monostate, Rgb, std::string>(Rgb{1, 0.5f, 0.25f})));
-    EXPECT_EQ(lightnet.overrides().exposure, 2);
+    EXPECT_EQ(run.png.stops, 2);
+    EXPECT_EQ(lightnet.overrides().exposure, 0) << "the EXR stays as it is";
     EXPECT_TRUE(lightnet.overrides().two_sided);
 }
 
-TEST(Render, ExposesGraphsToo) {
+TEST(Render, LeavesTheExposureOfAGraphToIt) {
     Bench lightnet;
     const std::string graph = lightnet.write("own.lua",
                                              "scene = Scene { 'ball.pbrt', exposure = 1 } light = DirectLighting {}\n"
                                              "image = RayTracer { light, scene = scene, film = { 8, 8 } }");
     EXPECT_EQ(lightnet({"run", graph, "--exposure", "-2.5"}), 7) << lightnet.err;
-    EXPECT_EQ(lightnet.overrides().exposure, -2.5);
+    EXPECT_EQ(lightnet.overrides().exposure, 1);
+    EXPECT_EQ(lightnet.runs.at(0).png.stops, -2.5);
 }
 
 TEST(Render, DefinesVariablesOfTheSceneFileOnAllHosts) {

@@ -19,13 +19,14 @@ protected:
         report.places = {{"here", 0, {}}, {"here", 1, {}}};
     }
     std::string text() const {
-        return summary_of({report, {"emission", "direct"}, asked, brightness, exposure, shown});
+        return summary_of({report, {"emission", "direct"}, asked, brightness, exposure, chosen, shown});
     }
 
     RunReport report;
     Hosts asked;
     Brightness brightness;
     double exposure = 0, shown = 0;
+    std::optional<double> chosen;
 };
 
 TEST_F(Summary, SaysWhatWasMadeAndWhereAndHowLongItTook) {
@@ -70,7 +71,7 @@ TEST_F(Summary, DoesNotListHundredsOfHosts) {
 
 TEST_F(Summary, HintsAtTheExposureThatShowsThePicture) {
     brightness = {.clipped = 0.995, .lit = 1, .high = 7.2f};  // log2(0.9 / 7.2) = -3
-    exposure = 1;
+    chosen = 1;
     EXPECT_THAT(text(),
                 HasSubstr("\nhint: 99 % of the pixels of the PNG are clipped; --exposure -2.0 would show them"));
     brightness = {.black = 0.8, .lit = 1, .high = 1e-4f, .lit_high = 1.0f / 1024};  // log2(512) = 9
@@ -80,9 +81,10 @@ TEST_F(Summary, HintsAtTheExposureThatShowsThePicture) {
 TEST_F(Summary, TellsHowThePngDiffersFromTheExr) {
     brightness = {.black = 0.8, .lit = 1, .high = 1e-4f, .lit_high = 1.0f / 1024};
     shown = 9;
-    EXPECT_THAT(text(),
-                HasSubstr("\nhint: the PNG is 9.0 stops brighter than the EXR; --exposure 9.0 does that to both, "
-                          "--view plain to none"));
+    EXPECT_THAT(
+        text(),
+        HasSubstr("\nhint: the PNG is 9.0 stops brighter than the EXR; exposure = 9.0 of the graph's scene does "
+                  "that to both, --view plain to none"));
 }
 
 TEST_F(Summary, SaysThatNothingIsLitWhereNoExposureHelps) {

@@ -89,8 +89,17 @@ Written with_hosts(Graph graph, std::vector<Problem> problems, const std::string
 
 }  // namespace
 
-Written read_files(const GraphOptions& graph, const std::string& hosts) {
-    GraphFile file = read_graph(graph.file, {.constants = graph.constants, .frame = graph.frame});
+GraphOptions taken_from_standard_input(GraphOptions graph) {
+    if (graph.file != standard_input_word) return graph;
+    graph.file = standard_input_name;
+    graph.text = graph_from_standard_input();
+    return graph;
+}
+
+Written read_files(const GraphOptions& wanted, const std::string& hosts) {
+    const GraphOptions graph = taken_from_standard_input(wanted);
+    const LuaOptions options{.constants = graph.constants, .frame = graph.frame};
+    GraphFile file = graph.text ? read_graph_text(*graph.text, graph.file, options) : read_graph(graph.file, options);
     return with_hosts(std::move(file.graph), std::move(file.problems), hosts);
 }
 

@@ -27,6 +27,8 @@ Written read_files(const GraphOptions& graph, const std::string& hosts);
 Written read_files(const GraphOptions& graph, GraphReader& reader, const Hosts& hosts);
 /// Those of a hosts file, or of addresses with commas between them; "": none. Throws UserError.
 Hosts read_hosts(const std::string& hosts);
+/// `graph`, whose text is there if it comes from standard input, which can be read but once. Throws UserError.
+GraphOptions taken_from_standard_input(GraphOptions graph);
 /// For `lightnet render`. Evaluates Lua, so call it before the scene is read: reading starts threads, and Lua runs in
 /// a child, which would have nothing of them but their locks.
 Written read_files(const RenderedScene& scene, const std::string& hosts);

@@ -20,38 +20,6 @@
 namespace lightnet {
 namespace {
 
-std::optional<PictureSize> size_of(std::string_view text) {
-    PictureSize size;
-    const auto cross = text.find('x');
-    for (auto [part, side] : {std::pair{text.substr(0, cross), &size.width},
-                              {text.substr(std::min(cross, text.size() - 1) + 1), &size.height}}) {
-        const auto [end, fault] = std::from_chars(part.begin(), part.end(), *side);
-        if (fault != std::errc{} || end != part.end() || *side < 1) return std::nullopt;
-    }
-    return size;
-}
-
-// What is wrong with a size; "": nothing.
-std::string mistake_in_size(const std::string& text) {
-    const auto size = size_of(text);
-    if (!size) return "a size is like 640x480, not " + text;
-    if (size->width <= longest_side && size->height <= longest_side) return {};
-    return "a picture has at most " + std::to_string(longest_side) + " pixels along each side, not " + text;
-}
-
-std::optional<PictureCrop> crop_of(std::string_view text) {
-    std::array<std::uint32_t, 4> edges{};
-    const char* at = text.begin();
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        if (i > 0 && (at == text.end() || *at++ != ',')) return std::nullopt;
-        const auto [end, fault] = std::from_chars(at, text.end(), edges[i]);
-        if (fault != std::errc{}) return std::nullopt;
-        at = end;
-    }
-    if (at != text.end()) return std::nullopt;
-    return PictureCrop{edges[0], edges[1], edges[2], edges[3]};
-}
-
 // What ssh would take for an option of its own, or for nothing.
 std::string mistake_in_ssh_host(const std::string& text) {
     const bool strange = text.empty() || text.front() == '-' || text.find_first_of(" \t\n") != std::string::npos;
@@ -199,7 +167,7 @@ void add_tuning(CLI::App& verb, Tuning& tuning) {
 }  // namespace
 
 void add_graph(CLI::App& verb, GraphOptions& graph) {
-    verb.add_option("GRAPH", graph.file, "the graph file")->required();
+    verb.add_option("GRAPH", graph.file, "the graph file; -: standard input")->required();
     add_constants(verb, graph.constants, "override a constant of the graph file (may be repeated)");
 }
 
@@ -218,63 +186,6 @@ void add_constants(CLI::App& verb, std::map<std::string, std::string>& constants
         ->expected(1)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void add_picture(CLI::App& verb, PictureOptions& picture) {
-    takes_numbers(verb.add_option("--samples", picture.samples, "samples per pixel, instead of the graph's"), "N", 1,
-                  std::numeric_limits<std::uint32_t>::max());
-    verb.add_option_function<std::string>(
-            "--size", [&picture](const std::string& text) { picture.size = size_of(text); },
-            "size of the picture, instead of the graph's")
-        ->type_name("WxH")
-        ->check(mistake_in_size);
-    verb.add_option_function<std::string>(
-            "--crop", [&picture](const std::string& text) { picture.crop = crop_of(text); },
-            "only this part of the picture, instead of the graph's: edges in pixels, from the upper left corner")
-        ->type_name("X0,Y0,X1,Y1")
-        ->check([](const std::string& text) {
-            return crop_of(text) ? "" : "a crop is like 10,20,110,80 (left, top, right, bottom), not " + text;
-        });
-}
-
-void add_clean(CLI::App& verb, PictureOptions& picture) {
-    verb.add_flag("--clean", picture.clean,
-                  "write a picture without noise, too (x.clean.exr beside x.exr), as 'clean' of the graph's film does");
-}
-
-CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help) {
-    const auto add = [&gains](const std::vector<std::string>& given) {
-        for (const auto& one : given) gains.push_back(gain_of(one));
-    };
-    const auto check = [](const std::string& text) -> std::string {
-        try {
-            gain_of(text);
-            return "";
-        } catch (const Error& error) {
-            return error.what();
-        }
-    };
-    return verb.add_option_function<std::vector<std::string>>(name, add, help)
-        ->type_name("LAYER=X|R,G,B")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->check(check);
-}
-
-void add_view(CLI::App& verb, PictureView& view) {
-    verb.add_option_function<std::string>(
-            "--view", [&view](const std::string& text) { view = *picture_view(text); },
-            "how the PNG shows the picture; auto: with an exposure by which it can be seen, unless one was chosen; "
-            "plain: as computed; filmic: as auto, with a filmic curve. The EXR is the same")
-        ->type_name("auto|plain|filmic")
-        ->check([](const std::string& text) {
-            return picture_view(text) ? "" : "must be auto, plain or filmic, not '" + text + "'";
-        });
-}
-
-void add_output(CLI::App& verb, std::string& file, const char* help) {
-    verb.add_option("-o,--output", file, help)->type_name("OUT.exr");
 }
 
 CLI::Option* add_hosts(CLI::App& verb, std::string& file) {
@@ -305,12 +216,16 @@ void add_running(CLI::App& verb, RunningOptions& running) {
     add_helpers(verb, running);
     takes_numbers(verb.add_option("--seed", running.seed, "seed of all random numbers"), "N", 0,
                   std::numeric_limits<std::uint64_t>::max());
-    verb.add_option("--exposure", running.picture.exposure, "exposure in stops: each makes the picture twice as bright")
-        ->type_name("STOPS");
-    add_view(verb, running.view);
+    add_png(verb, running.png,
+            "leave out what surrounds the scene, and keep which part of each pixel is covered: as A in the EXR, and as "
+            "the alpha of the PNG");
     verb.add_option("--camera", running.picture.camera, "one of several cameras of the scene's file")
         ->type_name("NAME|N");
     add_clean(verb, running.picture);
+    takes_one_of(verb.add_option("--compression", running.picture.compression,
+                                 "how the EXR is packed, instead of the graph's; all lose nothing"),
+                 lossless_compressions());
+    add_arrays(verb, running.picture.arrays);
     add_gains(verb, "--gain", running.picture.gains, "times which a layer is in the picture (may be repeated)");
     verb.add_option_function<std::string>(
             "--progress", [&running](const std::string& text) { running.progress = *progress_mode(text); },
@@ -351,6 +266,7 @@ void add_running(CLI::App& verb, RunningOptions& running) {
 }
 
 std::optional<std::string> settle(RunningOptions& running) {
+    running.picture.alpha = running.png.alpha;
     const bool safe = running.insecure || !running.allow.empty() || running.slurm ||
                       !running.ssh.empty();  // which have keys by themselves
     if (!running.listen.empty() && !safe && !stays_on_this_machine(running.listen))

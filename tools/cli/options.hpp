@@ -22,9 +22,10 @@ namespace lightnet {
 
 /// A graph file.
 struct GraphOptions {
-    std::string file;
+    std::string file;                              // "-": standard input
     std::map<std::string, std::string> constants;  // -D
     GraphFrame frame{};                            // for which it is evaluated
+    std::optional<std::string> text{};             // of the file, where it has been read already
 };
 
 /// Width and height, pixels.
@@ -44,11 +45,13 @@ struct PictureOptions {
     std::optional<std::uint32_t> samples;  // per pixel
     std::optional<PictureSize> size;
     std::optional<PictureCrop> crop;
-    std::optional<double> exposure;  // stops
-    std::string camera;              // of the scene's file, name or number; "": as the graph says
-    std::vector<Gain> gains;         // of layers
-    bool clean = false;              // it is cleaned, whatever the graph says
-    std::string output;              // file; "": as the graph says
+    std::string camera;       // of the scene's file, name or number; "": as the graph says
+    std::vector<Gain> gains;  // of layers
+    bool clean = false;       // it is cleaned, whatever the graph says
+    bool alpha = false;       // what surrounds the scene is left out, and the part of pixels that it covers kept
+    std::string compression;  // of the file; "": as the graph says
+    std::string output;       // file; "": as the graph says
+    std::string arrays;       // file with the same as arrays; "": none
 };
 
 /// What all verbs that make a picture take.
@@ -73,16 +76,16 @@ struct RunningOptions {
     std::string ssh_daemon;  // lightnetd there; "": as here, or else in the PATH there
     std::uint64_t seed = 0;
     ProgressMode progress = ProgressMode::automatic;
-    std::string trace;                          // file for what places were busy with; "": none
-    std::optional<WatchAddress> watch;          // none: nobody can watch
-    std::string report;                         // file; "": none
-    double preview = 0;                         // seconds between two pictures of what is there; 0: none
-    std::optional<WatchAddress> viewer;         // tev, to be shown the picture while it grows
-    bool resume = false;                        // from a checkpoint
-    bool forget = false;                        // it, when the picture is finished
-    double time_limit = 0;                      // seconds; 0: none
-    std::string reference, curve;               // files; "": none
-    PictureView view = PictureView::automatic;  // of the PNG
+    std::string trace;                   // file for what places were busy with; "": none
+    std::optional<WatchAddress> watch;   // none: nobody can watch
+    std::string report;                  // file; "": none
+    double preview = 0;                  // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
+    bool resume = false;                 // from a checkpoint
+    bool forget = false;                 // it, when the picture is finished
+    double time_limit = 0;               // seconds; 0: none
+    std::string reference, curve;        // files; "": none
+    PngRequest png;                      // beside the picture
     Tuning tuning;
 };
 
@@ -96,7 +99,11 @@ void add_clean(CLI::App& verb, PictureOptions& picture);
 CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help);
 /// --view
 void add_view(CLI::App& verb, PictureView& view);
+/// --view, --exposure and, where help is given for it, --alpha.
+void add_png(CLI::App& verb, PngRequest& png, const char* alpha_help);
 void add_output(CLI::App& verb, std::string& file, const char* help);
+/// --npz
+void add_arrays(CLI::App& verb, std::string& file);
 CLI::Option* add_hosts(CLI::App& verb, std::string& file);
 /// --layout, --layout-out and --layout-memory.
 void add_layout(CLI::App& verb, RunningOptions& running);

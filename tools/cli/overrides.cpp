@@ -32,9 +32,12 @@ void set_clean(Value& film, bool clean) {
     if (auto* table = std::get_if<Table>(&film.data); table && clean) table->named["clean"] = {true};
 }
 
+void set_compression(Value& film, const std::string& name) {
+    if (auto* table = std::get_if<Table>(&film.data); table && !name.empty()) table->named["compression"] = {name};
+}
+
 void change_scene(Node& scene, const Kind& kind, const PictureOptions& wanted) {
     for (const auto& param : kind.params) {
-        if (wanted.exposure && param.name == "exposure") scene.params[param.name] = {*wanted.exposure};
         if (!wanted.camera.empty() && param.name == "seen_by") scene.params[param.name] = {wanted.camera};
     }
 }
@@ -49,21 +52,29 @@ void override_picture(Graph& graph, const Registry& registry, const PictureOptio
         for (const auto& param : kind->params) {
             if (wanted.samples && param.name == "samples")
                 node.params[param.name] = {static_cast<double>(*wanted.samples)};
-            const bool changes = wanted.size || wanted.crop || !wanted.gains.empty() || wanted.clean;
+            if (wanted.alpha && param.name == "alpha") node.params[param.name] = {true};
+            if (wanted.alpha && param.name == "background") node.params[param.name] = {false};
+            const bool changes =
+                wanted.size || wanted.crop || !wanted.gains.empty() || wanted.clean || !wanted.compression.empty();
             if (param.type != ParamType::film || !changes) continue;
             Value& film = node.params.try_emplace(param.name, Value{Table{}}).first->second;
             if (wanted.size) set_size(film, *wanted.size);
             if (wanted.crop) set_crop(film, *wanted.crop);
             set_gains(film, wanted.gains);
             set_clean(film, wanted.clean);
+            set_compression(film, wanted.compression);
         }
     }
+}
+
+std::string stem_of_pictures(const std::string& graph) {
+    return graph == standard_input_name ? "stdin" : std::filesystem::path(graph).stem().string();
 }
 
 std::string output_file(const Graph& graph, const Registry& registry, const PictureOptions& wanted) {
     if (!wanted.output.empty()) return wanted.output;
     if (const auto file = film_of(graph, registry).file; !file.empty()) return file;
-    return std::filesystem::path(graph.file).stem().string() + ".exr";
+    return stem_of_pictures(graph.file) + ".exr";
 }
 
 }  // namespace lightnet

@@ -9,9 +9,12 @@
 
 namespace lightnet {
 
-/// Writes --samples, --size, --crop and --gain into the renderers of an unchecked graph, and --exposure into its
-/// scenes.
+/// Writes --samples, --size, --crop, --gain, --clean, --alpha and --compression into the renderers of an unchecked
+/// graph, and --camera into its scenes.
 void override_picture(Graph& graph, const Registry& registry, const PictureOptions& wanted);
+
+/// "shot" of a graph "…/shot.lua", "stdin" of one that comes from standard input: what its pictures are called.
+std::string stem_of_pictures(const std::string& graph);
 
 /// Where the picture of a checked graph goes: -o, else the film's file, else the graph's name with .exr, here.
 std::string output_file(const Graph& graph, const Registry& registry, const PictureOptions& wanted);

@@ -84,7 +84,8 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     if (running.wait) request.wait = *(request.busy_wait = std::chrono::seconds(*running.wait));
     request.resume = running.resume;
     request.forget = running.forget;
-    request.view = running.view;
+    request.png = running.png;
+    request.arrays = running.picture.arrays;
     request.time_limit = running.time_limit;
     request.reference = running.reference;
     request.curve = running.curve;

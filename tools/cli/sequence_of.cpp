@@ -18,8 +18,10 @@ void check_together(const RunningOptions& running) {
     const auto refuse = [](const std::string& option, const std::string& why) { throw UserError({option, 0}, why); };
     if (running.watch) refuse("--watch", "a page shows one picture: leave it out, or ask for one frame");
     if (running.viewer) refuse("--preview tev", "a viewer is shown one picture: leave it out, or ask for one frame");
-    for (const auto& [option, file] :
-         {std::pair("--report", &running.report), {"--trace", &running.trace}, {"--csv", &running.curve}})
+    for (const auto& [option, file] : {std::pair("--report", &running.report),
+                                       {"--trace", &running.trace},
+                                       {"--csv", &running.curve},
+                                       {"--npz", &running.picture.arrays}})
         if (!file->empty() && !has_frame_place(*file)) {
             const std::filesystem::path path(*file);
             const auto better = path.parent_path() / (path.stem().string() + ".####" + path.extension().string());
@@ -29,7 +31,7 @@ void check_together(const RunningOptions& running) {
 
 RunningOptions for_frame(const RunningOptions& running, int frame) {
     RunningOptions own = running;
-    for (auto* name : {&own.picture.output, &own.report, &own.trace, &own.curve, &own.reference})
+    for (auto* name : {&own.picture.output, &own.picture.arrays, &own.report, &own.trace, &own.curve, &own.reference})
         *name = with_frame(*name, frame);
     return own;
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/own_files.hpp"
 #include "core/film/checkpoint.hpp"
+#include "core/film/npz.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/files/files.hpp"
 #include "core/run/assembly/kept.hpp"
@@ -55,12 +56,20 @@ void check_picture(const std::string& exr) {
     if (!problems.empty()) throw UserError(problems);
 }
 
-void check_report(const std::string& html) {
-    const auto folder = folder_of(html);
-    if (!fs::is_directory(folder)) throw UserError({html, 0}, "there is no folder " + folder);
-    if (::access(folder.c_str(), W_OK) != 0) throw UserError({html, 0}, "the folder can't be written to");
-    if (const auto why = why_not_replaced(html, report_page_beginning); !why.empty()) throw UserError({html, 0}, why);
+namespace {
+
+void check_file(const std::string& file, std::string_view beginning) {
+    const auto folder = folder_of(file);
+    if (!fs::is_directory(folder)) throw UserError({file, 0}, "there is no folder " + folder);
+    if (::access(folder.c_str(), W_OK) != 0) throw UserError({file, 0}, "the folder can't be written to");
+    if (const auto why = why_not_replaced(file, beginning); !why.empty()) throw UserError({file, 0}, why);
 }
+
+}  // namespace
+
+void check_report(const std::string& html) { check_file(html, report_page_beginning); }
+
+void check_arrays(const std::string& npz) { check_file(npz, npz_beginning); }
 
 // DECISIONS: where-graphs-write
 std::vector<Problem> problems_of_kept_files(const Graph& graph, const Registry& registry) {

@@ -23,6 +23,9 @@ void check_picture(const std::string& exr);
 /// Throws UserError when no page of a report can be written there.
 void check_report(const std::string& html);
 
+/// Throws UserError when no arrays of NumPy can be written there.
+void check_arrays(const std::string& npz);
+
 /// What is wrong with the files that a graph, sound or not, wants to be written (`keep`): they stay in the graph's
 /// folder, or below, wherever links lead, and take no place of others.
 std::vector<Problem> problems_of_kept_files(const Graph& graph, const Registry& registry);

@@ -31,12 +31,12 @@ void mix_or_complain(Picture& picture, const std::vector<Gain>& gains, const std
     mix(picture, gains);
 }
 
-void write_remix(const Picture& picture, const std::string& output, PictureView view, std::ostream& err) {
+void write_remix(const Picture& picture, const std::string& output, const PngRequest& wanted, std::ostream& err) {
     check_output(output);
     const PictureLock lock(output);
     const auto png = png_beside(output);
     write_exr(output, picture);
-    write_png(png, picture, png_view(view, brightness_of(picture)));
+    write_png(png, picture, png_view(wanted, brightness_of(picture)));
     err << output << ", " << png.string() << ": ";
     for (std::size_t k = 0; k < picture.layers.size(); ++k)
         err << (k ? ", " : "") << to_string(Gain{picture.layers[k].name, picture.layers[k].gain});

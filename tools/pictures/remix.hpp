@@ -19,6 +19,6 @@ void mix_or_complain(Picture& picture, const std::vector<Gain>& gains, const std
 
 /// The picture as a rendering with its gains would be written: `output` and a PNG beside it. Says so in `err`. Throws
 /// UserError where other files are in the way, Error when the disk refuses.
-void write_remix(const Picture& picture, const std::string& output, PictureView view, std::ostream& err);
+void write_remix(const Picture& picture, const std::string& output, const PngRequest& wanted, std::ostream& err);
 
 }  // namespace lightnet

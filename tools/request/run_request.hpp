@@ -83,14 +83,15 @@ struct RunRequest {
     std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
     std::string output;               // "x.exr", as seen from here
     std::uint64_t seed = 0;
-    std::string trace;                          // file for what places were busy with; "": none
-    std::optional<WatchAddress> watch;          // serve a page that shows the run
-    std::string report;                         // file of a page that shows what the run did; "": none
-    PictureView view = PictureView::automatic;  // of the PNG
-    double time_limit = 0;                      // seconds since the run began; 0: none
-    std::string reference, curve;               // a picture to be compared with, and a file for the errors; "": none
-    double preview = 0;                         // seconds between two pictures of what is there; 0: none
-    std::optional<WatchAddress> viewer;         // tev, to be shown the picture while it grows
+    std::string trace;                   // file for what places were busy with; "": none
+    std::optional<WatchAddress> watch;   // serve a page that shows the run
+    std::string report;                  // file of a page that shows what the run did; "": none
+    std::string arrays;                  // file for the picture as arrays of NumPy; "": none
+    PngRequest png;                      // beside the picture
+    double time_limit = 0;               // seconds since the run began; 0: none
+    std::string reference, curve;        // a picture to be compared with, and a file for the errors; "": none
+    double preview = 0;                  // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
     ProgressMode progress = ProgressMode::automatic;
     std::optional<FrameOfSequence> frame;  // none: a still
     /// Is told whenever the picture was written, which then happens from its first sample on; none: it is written once.

@@ -37,7 +37,10 @@ FilmFormat film_format(const RunRequest& request, const Registry& registry) {
     format.storage = film.storage;
     for (std::size_t i = 0; i < layers.shown.size(); ++i) {
         const Node& node = request.graph.nodes[layers.shown[i]];
-        if (registry.find(node.kind)->light.facts) format.facts.insert(node.name);
+        const auto& light = registry.find(node.kind)->light;
+        if (light.facts) format.facts.insert(node.name);
+        if (light.letters)
+            if (const auto letters = light.letters(node); letters != usual_letters) format.letters[node.name] = letters;
         if (layers.ids[i]) format.ids[node.name] = layers.ids[i];
     }
     format.gains = one_for_each(film.gains, layers.film);

@@ -150,7 +150,8 @@ int Run::render() {
         const Window wanted = format_.crop.value_or(Window{0, 0, format_.width, format_.height});
         book_.compare_with({request_.reference, request_.curve, wanted.width, wanted.height});
     }
-    book_.show_png(request_.view, scene_overrides(request_.graph, registry_).exposure != 0);
+    book_.show_png(request_.png, scene_overrides(request_.graph, registry_).exposure != 0);
+    book_.keep_arrays(request_.arrays);
     book_.trace_to(request_.trace);
     if (request_.shown) book_.show_steps(request_.output, request_.shown);
     if (request_.preview > 0) book_.preview(request_.output, request_.preview);
@@ -225,6 +226,7 @@ int Run::perform() {
     if (!request_.trace.empty())
         if (const auto why = why_not_replaced(request_.trace, trace_beginning); !why.empty())
             throw UserError({request_.trace, 0}, why);
+    if (!request_.arrays.empty()) check_arrays(request_.arrays);
     if (!request_.report.empty()) check_report(request_.report);
     const PictureLock lock(request_.output);
     open_to_watchers();

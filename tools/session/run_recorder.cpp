@@ -13,12 +13,9 @@
 #include "core/base/own_process.hpp"
 #include "core/base/plain_file.hpp"
 #include "core/base/this_machine.hpp"
-#include "core/film/clean/clean.hpp"
 #include "core/film/exr.hpp"
-#include "core/film/png.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/run/message/message.hpp"
-#include "tools/pictures/clean.hpp"
 #include "tools/session/run_figures.hpp"
 #include "tools/session/run_trace.hpp"
 #include "tools/support/log_line.hpp"
@@ -198,47 +195,6 @@ std::string RunRecorder::write_preview() {
     return why_not;
 }
 
-Picture RunRecorder::picture_now() const {
-    Picture picture = steps_.picture().picture(scale_);
-    add_words(words_, picture);
-    picture.notes.texts["samples"] = std::to_string(steps_.picture().format().samples);
-    return picture;
-}
-
-void RunRecorder::write_files(const std::string& exr, bool quickly) {
-    const auto png = png_beside(exr);
-    expect_ours(exr, exr_beginning);
-    expect_ours(png, png_beginning);
-    auto picture = picture_now();
-    if (quickly) picture.storage.compression = lossless_compressions().front();
-    if (picture.overflowed && !std::exchange(said_overflow_, true))
-        alert(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
-                          picture.overflowed));
-    write_exr(exr, picture);
-    written_.insert(exr);
-    brightness_ = brightness_of(picture);
-    const PngView view = png_view(view_, brightness_, exposed_);
-    write_png(png, picture, view);
-    shown_stops_ = view.stops;
-    report_.layers = light_of_layers(picture);
-    report_.outputs = {exr, png.string()};
-    report_.settings["tone of the PNG"] = tone_of(view);
-}
-
-// Beside the noisy one, which stays.
-void RunRecorder::write_clean(const std::string& exr) {
-    const auto begun = Clock::now();
-    const auto file = clean_beside(exr);
-    expect_ours(file, exr_beginning);
-    expect_ours(png_beside(file), png_beginning);
-    const Cleaned cleaned = clean(picture_now());
-    for (const auto& lack : cleaned.lacks) alert(file + " could be better: " + lack);
-    write_exr(file, cleaned.picture);
-    write_png(png_beside(file), cleaned.picture, png_view(view_, brightness_, exposed_));
-    report_.outputs.insert(report_.outputs.end(), {file, png_beside(file).string()});
-    report_.settings["clean"] = fmt::format("{:.2f} s", std::chrono::duration<double>(Clock::now() - begun).count());
-}
-
 void RunRecorder::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
                                   std::chrono::seconds period) {
     checkpoint_.emplace(steps_.film(), exr, std::move(recipe), period);
@@ -360,7 +316,7 @@ void RunRecorder::conclude(const Hosts& asked, double exposure) {
     if (film().format().alpha) layers.emplace_back("A");
     if (const auto& error = report_.error)
         say(fmt::format("relMSE to {}: {:g}", error->reference, error->relative_square));
-    say(summary_of({report_, layers, asked, brightness_, exposure, shown_stops_}));
+    say(summary_of({report_, layers, asked, brightness_, exposure, png_.stops, shown_stops_}));
 }
 
 void RunRecorder::write_report(const std::string& exr, const std::string& outcome) {

@@ -74,8 +74,10 @@ public:
     void alert(const std::string& text);
     /// What the files of the picture say of it beside its pixels.
     void describe(PictureWords words) { words_ = std::move(words); }
-    /// How the PNG shows the picture; `exposed`: by an exposure that somebody has chosen.
-    void show_png(PictureView view, bool exposed) { view_ = view, exposed_ = exposed; }
+    /// How the PNG shows the picture; `exposed`: that has an exposure which somebody has chosen.
+    /// Where the picture goes as arrays of NumPy; "": nowhere.
+    void keep_arrays(const std::string& npz) { arrays_ = npz; }
+    void show_png(const PngRequest& png, bool exposed) { png_ = png, exposed_ = exposed; }
     /// By this, logs of hosts call the run, too.
     void name_run(std::uint64_t number);
     /// What the scene's film makes of radiance. Before the first tile.
@@ -176,8 +178,9 @@ private:
     FilmSteps steps_;
     float scale_ = 1;
     PictureWords words_;
-    PictureView view_ = PictureView::plain;
+    PngRequest png_ = PictureView::plain;
     bool exposed_ = false;
+    std::string arrays_;  // file; "": none
     std::optional<ErrorCurve> curve_;
     Pace::Clock::time_point begun_ = Pace::Clock::now();
     double shown_stops_ = 0;         // by which the PNG that was written last is brighter than its picture

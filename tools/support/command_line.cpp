@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/ip_address.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/check_hosts.hpp"
 #include "tools/support/exit_code.hpp"
@@ -173,6 +174,13 @@ CLI::Option* takes_amounts(CLI::Option* option, const char* unit, Least least) {
         const auto number = amount_of(text);
         if (number && (*number > 0 || (*number == 0 && least == Least::zero))) return {};
         return fmt::format("must be a number {}, not '{}'", least == Least::zero ? "of 0 or more" : "above 0", text);
+    });
+}
+
+CLI::Option* takes_one_of(CLI::Option* option, const std::vector<std::string>& words) {
+    return option->type_name(joined(words, "|"))->check([words](const std::string& text) -> std::string {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+        return "must be " + joined(words, ", ") + ", not '" + text + "'" + did_you_mean(text, words);
     });
 }
 

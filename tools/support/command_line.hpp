@@ -40,6 +40,9 @@ void add_everywhere(CLI::App& app, std::vector<std::string>& plugins);
 /// `option` takes whole numbers from `least` to `most`, called `unit` in the help ("N", "SECONDS").
 CLI::Option* takes_numbers(CLI::Option* option, const char* unit, std::uint64_t least, std::uint64_t most);
 
+/// `option` takes one of these words.
+CLI::Option* takes_one_of(CLI::Option* option, const std::vector<std::string>& words);
+
 /// None: it is no number, or an infinite one.
 std::optional<double> amount_of(const std::string& text);
 /// `option` takes numbers of at least 0, or above it, called `unit` in the help.

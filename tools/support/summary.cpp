@@ -125,15 +125,16 @@ std::string hint(const Ending& ending) {
                ": the scene lacks light (lightnet render --env 1 gives it some), or the camera looks elsewhere";
     const auto stops = helpful_stops(brightness);
     if (!stops) return {};
-    if (ending.shown != 0)
+    if (ending.shown != 0 && !ending.chosen)
         return fmt::format(
-            "\nhint: the PNG is {:.1f} stops {} than the EXR; --exposure {:.1f} does that to both, "
+            "\nhint: the PNG is {:.1f} stops {} than the EXR; exposure = {:.1f} of the graph's scene does that to "
+            "both, "
             "--view plain to none",
             std::fabs(ending.shown), ending.shown > 0 ? "brighter" : "darker", ending.exposure + ending.shown);
     const bool clipped = *stops < 0;
     return fmt::format("\nhint: {} of the pixels of the PNG are {}; --exposure {:.1f} would show them",
                        percent(clipped ? brightness.clipped : brightness.black), clipped ? "clipped" : "black",
-                       ending.exposure + *stops);
+                       ending.chosen.value_or(0) + *stops);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The last words of a run: what it made, where, how long it took and who took part.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +17,10 @@ struct Ending {
     const RunReport& report;                 // finished
     const std::vector<std::string>& layers;  // of the picture
     const Hosts& asked;                      // hosts that were to take part
-    Brightness brightness;
-    double exposure = 0;  // stops, as it was rendered
-    double shown = 0;     // stops by which the PNG is brighter than that
+    Brightness brightness;                   // as the PNG shows it, where its stops were chosen, else of the picture
+    double exposure = 0;                     // stops, as it was rendered
+    std::optional<double> chosen{};          // stops by which the PNG was to be brighter than that
+    double shown = 0;                        // stops by which it is
 };
 
 /// Some lines, without the last line break.

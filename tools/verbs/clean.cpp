@@ -23,7 +23,7 @@ namespace {
 
 struct CleanOptions {
     std::string picture, output;
-    PictureView view = PictureView::automatic;
+    PngRequest png;
 };
 
 void describe_clean(CLI::App& verb, CleanOptions& options) {
@@ -32,7 +32,7 @@ void describe_clean(CLI::App& verb, CleanOptions& options) {
             "a picture as lightnet writes it; best one that was rendered with --clean, which has what this needs")
         ->required()
         ->type_name("IMAGE.exr");
-    add_view(verb, options.view);
+    add_png(verb, options.png, "the PNG has the picture's alpha, where that has one (A)");
     add_output(verb, options.output, "file of the new picture (default: x.clean.exr, beside x.exr)");
     add_examples(verb, {"lightnet clean cornell.exr", "lightnet clean cornell.exr -o quiet.exr"});
 }
@@ -62,7 +62,7 @@ int clean_file(const CleanOptions& options, const Launcher& launcher) {
     for (const auto& lack : cleaned.lacks) launcher.err << options.picture << ": " << lack << '\n';
     const auto png = png_beside(output);
     write_exr(output, cleaned.picture);
-    write_png(png, cleaned.picture, png_view(options.view, brightness_of(cleaned.picture)));
+    write_png(png, cleaned.picture, png_view(options.png, brightness_of(cleaned.picture)));
     launcher.err << output << ", " << png.string() << ": cleaned in " << seconds.count() << " s\n";
     return exit_code::done;
 }

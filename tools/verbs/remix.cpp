@@ -3,7 +3,9 @@
 
 #include <filesystem>
 
+#include "core/base/own_files.hpp"
 #include "core/film/gains.hpp"
+#include "core/film/npz.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/pictures/remix.hpp"
@@ -16,17 +18,27 @@ namespace {
 struct RemixOptions {
     std::string picture, output;
     std::vector<Gain> gains;
-    PictureView view = PictureView::automatic;
+    std::string compression;  // "": as it is
+    std::string arrays;       // file; "": none
+    bool keep_gains = false;  // of the picture
+    PngRequest png;
 };
 
 void describe_remix(CLI::App& verb, RemixOptions& options) {
     verb.add_option("IMAGE", options.picture, "a picture with layers, as lightnet writes them")
         ->required()
         ->type_name("IMAGE.exr");
-    add_gains(verb, "GAIN", options.gains, "times which a layer is in the new picture; those not named: once")
-        ->expected(0, -1)
-        ->allow_extra_args();
-    add_view(verb, options.view);
+    auto* const gains =
+        add_gains(verb, "GAIN", options.gains, "times which a layer is in the new picture; those not named: once")
+            ->expected(0, -1)
+            ->allow_extra_args();
+    add_png(verb, options.png, "the PNG has the picture's alpha, where that has one (A)");
+    takes_one_of(
+        verb.add_option("--compression", options.compression, "how the new EXR is packed, instead of as IMAGE"),
+        lossless_compressions());
+    add_arrays(verb, options.arrays);
+    verb.add_flag("--keep-gains", options.keep_gains, "all layers keep the gains that they have in IMAGE")
+        ->excludes(gains);
     add_output(verb, options.output, "file of the new picture (default: x.remix.exr, beside x.exr)");
     add_examples(verb, {"lightnet remix cornell.exr direct=0.5 bounce=1.2,1.1,1",
                         "lightnet remix cornell.exr direct=0.5 -o dim.exr"});
@@ -34,9 +46,14 @@ void describe_remix(CLI::App& verb, RemixOptions& options) {
 
 int remix(const RemixOptions& options, const Launcher& launcher) {
     Picture picture = read_layers(options.picture);
-    mix_or_complain(picture, options.gains, options.picture);
+    if (!options.keep_gains) mix_or_complain(picture, options.gains, options.picture);
+    if (!options.compression.empty()) picture.storage.compression = options.compression;
     const auto usual = std::filesystem::path(options.picture).replace_extension(".remix.exr").string();
-    write_remix(picture, options.output.empty() ? usual : options.output, options.view, launcher.err);
+    write_remix(picture, options.output.empty() ? usual : options.output, options.png, launcher.err);
+    if (!options.arrays.empty()) {
+        expect_ours(options.arrays, npz_beginning);
+        write_npz(options.arrays, picture);
+    }
     return exit_code::done;
 }
 

@@ -1,5 +1,4 @@
 // lightnet run: renders a graph.
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "tools/cli/lay_out.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
+#include "tools/cli/overrides.hpp"
 #include "tools/cli/request_of.hpp"
 #include "tools/cli/sequence_of.hpp"
 #include "tools/support/command_line.hpp"
@@ -50,9 +50,7 @@ RunRequest request_of(const GraphOptions& graph, const RunningOptions& running, 
 }
 
 // The picture of a frame that nobody has named: "shot.####.exr" of "shot.lua".
-std::string usual_picture(const std::string& graph) {
-    return std::filesystem::path(graph).stem().string() + ".####.exr";
-}
+std::string usual_picture(const std::string& graph) { return stem_of_pictures(graph) + ".####.exr"; }
 
 // A still is the first frame of what might be more.
 RunRequest still_of(const RunOptions& options, const Launcher& launcher) {
@@ -63,7 +61,7 @@ RunRequest still_of(const RunOptions& options, const Launcher& launcher) {
 
 // What --frames says of a graph, which -D can't.
 GraphOptions graph_of_frames(const RunOptions& options) {
-    GraphOptions graph = options.graph;
+    GraphOptions graph = taken_from_standard_input(options.graph);
     if (graph.constants.contains("frame"))
         throw UserError({"-D frame", 0}, "--frames says which frame it is; leave one of them out");
     if (options.frames.fps > 0) graph.constants["fps"] = number_text(options.frames.fps);

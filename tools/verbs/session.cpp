@@ -44,6 +44,7 @@ void describe_session(CLI::App& app, SessionOptions& options) {
     app.add_flag("--json", options.json, "tell on standard output what happens, in lines of JSON");
     when_taken_apart(app, [&options] {
         auto mistake = mistaken_scene(options.graph.file, "to render it: lightnet render");
+        if (options.graph.file == standard_input_word) mistake = "standard input has edits, so the graph is a file";
         if (!mistake) mistake = mistaken_options(options.running);
         return mistake ? mistake : settle(options.running);
     });

@@ -76,8 +76,10 @@ struct LightTraits {
                            // any surface, and taken as it is, without weight or exposure. For `show` only
     bool ids = false;      // those facts are ids of names (core/film/addition.hpp), of which a pixel keeps as many as
                            // the node's parameter `ranks` says
-    bool space = false;    // answers about points in media as well; else it is not asked about them: black
-    bool lamps = false;    // looks for lamps: has a parameter `lamps`, and its scene has no others than those
+    /// Letters of the channels of those facts in files (PictureLayer::letters); none: those of colours.
+    std::function<std::string(const Node&)> letters = {};
+    bool space = false;   // answers about points in media as well; else it is not asked about them: black
+    bool lamps = false;   // looks for lamps: has a parameter `lamps`, and its scene has no others than those
     bool groups = false;  // can keep groups of lamps apart: has a parameter `groups`. Its scene says how many there are
                           // (Scene::groups(), 1 where nobody asks), and so many colours does it answer with
     bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation

@@ -1,0 +1,65 @@
+// Pictures of a run, as files.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "core/base/own_files.hpp"
+#include "core/film/clean/clean.hpp"
+#include "core/film/exr.hpp"
+#include "core/film/npz.hpp"
+#include "core/film/png.hpp"
+#include "tools/pictures/clean.hpp"
+#include "tools/session/run_figures.hpp"
+#include "tools/session/run_recorder.hpp"
+
+namespace lightnet {
+
+Picture RunRecorder::picture_now() const {
+    Picture picture = steps_.picture().picture(scale_);
+    add_words(words_, picture);
+    picture.notes.texts["samples"] = std::to_string(steps_.picture().format().samples);
+    return picture;
+}
+
+void RunRecorder::write_files(const std::string& exr, bool quickly) {
+    const auto png = png_beside(exr);
+    expect_ours(exr, exr_beginning);
+    expect_ours(png, png_beginning);
+    auto picture = picture_now();
+    if (quickly) picture.storage.compression = lossless_compressions().front();
+    if (picture.overflowed && !std::exchange(said_overflow_, true))
+        alert(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
+                          picture.overflowed));
+    write_exr(exr, picture);
+    written_.insert(exr);
+    brightness_ = brightness_of(picture, png_.stops.value_or(0));
+    const PngView view = png_view(png_, brightness_, exposed_);
+    write_png(png, picture, view);
+    shown_stops_ = view.stops;
+    report_.layers = light_of_layers(picture);
+    report_.outputs = {exr, png.string()};
+    if (!arrays_.empty()) {
+        expect_ours(arrays_, npz_beginning);
+        write_npz(arrays_, picture);
+        report_.outputs.push_back(arrays_);
+    }
+    report_.settings["tone of the PNG"] = tone_of(view);
+}
+
+// Beside the noisy one, which stays.
+void RunRecorder::write_clean(const std::string& exr) {
+    const auto begun = std::chrono::steady_clock::now();
+    const auto file = clean_beside(exr);
+    expect_ours(file, exr_beginning);
+    expect_ours(png_beside(file), png_beginning);
+    const Cleaned cleaned = clean(picture_now());
+    for (const auto& lack : cleaned.lacks) alert(file + " could be better: " + lack);
+    write_exr(file, cleaned.picture);
+    write_png(png_beside(file), cleaned.picture, png_view(png_, brightness_, exposed_));
+    report_.outputs.insert(report_.outputs.end(), {file, png_beside(file).string()});
+    report_.settings["clean"] =
+        fmt::format("{:.2f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+}
+
+}  // namespace lightnet
