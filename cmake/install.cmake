@@ -1,5 +1,5 @@
-# What `cmake --install` puts where, by components: lightnet and lightnetd (the programs, and what belongs to each) and
-# lightnet-dev (what a node outside this tree is built against). Packages are the same components (cmake/packages.cmake).
+# What `cmake --install` puts where, by components: lightnet and lightnetd (the programs, and what belongs to each),
+# lightnet-dev (what a node outside this tree is built against) and python3-lightnet (the module). Packages are the same components (cmake/packages.cmake).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -28,6 +28,10 @@ endforeach()
 install(DIRECTORY "${manuals}/lightnet/" DESTINATION "${CMAKE_INSTALL_DATADIR}/lightnet" COMPONENT lightnet)
 install(DIRECTORY graphs DESTINATION "${CMAKE_INSTALL_DATADIR}/lightnet" COMPONENT lightnet)
 install(PROGRAMS packaging/slurm/lightnet.sbatch DESTINATION "${CMAKE_INSTALL_DATADIR}/lightnet" COMPONENT lightnetd)
+
+# The module for Python is the same for all of its versions.
+install(DIRECTORY python/lightnet DESTINATION lib/python3/dist-packages COMPONENT python3-lightnet
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 
 # The unit names the program by where it really is, which is known when it is installed; packages are staged elsewhere.
 set(unit_prefix "\${CMAKE_INSTALL_PREFIX}")

@@ -1,4 +1,4 @@
-# Packages: `cpack` in a build of the preset "package" (scripts/package.sh) makes lightnet, lightnetd, lightnet-dev and
+# Packages: `cpack` in a build of the preset "package" (scripts/package.sh) makes lightnet, lightnetd, lightnet-dev, python3-lightnet and
 # debug symbols of the programs as .deb, and the same as tar.gz. They are the components of cmake/install.cmake.
 set(CPACK_PACKAGE_NAME lightnet)
 set(CPACK_PACKAGE_VENDOR lightnet)
@@ -6,7 +6,7 @@ set(LIGHTNET_MAINTAINER "The lightnet authors <maintainers@lightnet.invalid>" CA
 set(CPACK_PACKAGE_CONTACT "${LIGHTNET_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "lighting network for realistic image synthesis")
 set(CPACK_GENERATOR DEB TGZ)
-set(CPACK_COMPONENTS_ALL lightnet lightnetd lightnet-dev)
+set(CPACK_COMPONENTS_ALL lightnet lightnetd lightnet-dev python3-lightnet)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_PROJECT_CONFIG_FILE "${PROJECT_SOURCE_DIR}/cmake/one_package.cmake")
 set(CPACK_SOURCE_GENERATOR TGZ)
@@ -33,13 +33,21 @@ set(CPACK_DEBIAN_LIGHTNET-DEV_PACKAGE_SECTION devel)
 set(CPACK_DEBIAN_LIGHTNET-DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_LIGHTNET-DEV_DEBUGINFO_PACKAGE OFF)
 set(CPACK_DEBIAN_LIGHTNET-DEV_PACKAGE_DEPENDS "lightnet (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
-set(CPACK_DEBIAN_LIGHTNET_PACKAGE_SUGGESTS "lightnetd, lightnet-dev")
+set(CPACK_DEBIAN_PYTHON3-LIGHTNET_PACKAGE_NAME python3-lightnet)
+set(CPACK_DEBIAN_PYTHON3-LIGHTNET_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON3-LIGHTNET_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON3-LIGHTNET_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON3-LIGHTNET_DEBUGINFO_PACKAGE OFF)
+set(CPACK_DEBIAN_PYTHON3-LIGHTNET_PACKAGE_DEPENDS
+  "python3 (>= 3.9), python3-numpy, lightnet (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+set(CPACK_DEBIAN_LIGHTNET_PACKAGE_SUGGESTS "lightnetd, lightnet-dev, python3-lightnet")
 set(CPACK_DEBIAN_LIGHTNETD_PACKAGE_SUGGESTS "lightnet")
 
 set(about "Pictures are rendered by a graph of light operators. The same graph runs in one thread, in many, or on many machines, and gives the same bytes. ")
 set(CPACK_COMPONENT_LIGHTNET_DESCRIPTION "${about}This package has the launcher and example graphs.")
 set(CPACK_COMPONENT_LIGHTNETD_DESCRIPTION "${about}This package has the daemon that lends a machine to runs.")
 set(CPACK_COMPONENT_LIGHTNET-DEV_DESCRIPTION "${about}This package has what light operators of one's own are built against.")
+set(CPACK_COMPONENT_PYTHON3-LIGHTNET_DESCRIPTION "${about}This package has the module for Python, whose pictures are NumPy arrays.")
 
 # What every package of Debian says of itself.
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)

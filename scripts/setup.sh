@@ -21,7 +21,7 @@ packages=(
 # What tests hold our files, pictures and hosts against; a test whose program is missing skips itself, and ./test fails.
 packages_of_tests=(
     graphviz python3-jsonschema prometheus              # drawings, reports, metrics as their own programs read them
-    python3-openimageio python3-numpy                   # pictures, as another library reads them
+    python3-openimageio python3-numpy openimageio-tools # pictures, as another library reads them; the module for Python
     clang-format                                        # how sources are laid out
     iproute2                                            # network namespaces: hosts of their own
     openssh-client openssh-server python3-yaml          # hosts by ssh; what deploys farms

@@ -1,0 +1,68 @@
+"""The program `lightnet`, which does all the work in a process of its own: no mistake of a run costs this one, the
+interpreter is never held, and pictures come back as memory that both see."""
+
+import contextlib
+import functools
+import os
+import shutil
+import subprocess
+import tempfile
+
+from .errors import NoProgram, error_of
+
+least_room = 256 << 20  # bytes; what a small picture with many layers takes
+
+
+@functools.lru_cache(maxsize=None)
+def path():
+    """Where the program is: `$LIGHTNET`, else beside this package (as wheels have it), else in the PATH."""
+    beside = os.path.join(os.path.dirname(__file__), "bin", "lightnet")
+    for candidate in (os.environ.get("LIGHTNET"), beside, shutil.which("lightnet")):
+        if candidate and os.access(candidate, os.X_OK):
+            return candidate
+    raise NoProgram("there is no program lightnet in the PATH; $LIGHTNET may name it")
+
+
+def said(*words, text=None, pass_fds=()):
+    """What the program prints on standard output. `text`: its standard input. Raises Error."""
+    done = subprocess.run(
+        [path(), *words], input=text, capture_output=True, text=True, pass_fds=pass_fds, start_new_session=True
+    )
+    if done.returncode != 0:
+        raise error_of(done.returncode, done.stderr)
+    return done.stdout
+
+
+def flags(options):
+    """Options of the command line: `local_workers=2` is `--local-workers 2`, `resume=True` is `--resume`, lists have
+    commas between their entries, `size=(640, 480)` is `--size 640x480`, and `gain={"direct": 0.5}` is given once for
+    each. What is None or False is left out."""
+    words = []
+    for name, value in options.items():
+        flag = "--" + name.replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            words.append(flag)
+        elif isinstance(value, dict):
+            for key, one in value.items():
+                words += [flag, f"{key}={_word(one, ',')}"]
+        else:
+            words += [flag, _word(value, "x" if name == "size" else ",")]
+    return words
+
+
+def _word(value, between):
+    if isinstance(value, (list, tuple)):
+        return between.join(_word(one, between) for one in value)
+    return repr(float(value)) if isinstance(value, float) else os.fspath(value) if hasattr(value, "__fspath__") else str(value)
+
+
+@contextlib.contextmanager
+def folder():
+    """A folder in memory (else where temporary files are), gone afterwards."""
+    memory = "/dev/shm"
+    room = os.statvfs(memory) if os.path.isdir(memory) and os.access(memory, os.W_OK) else None
+    roomy = room is not None and room.f_bavail * room.f_frsize > least_room
+    with tempfile.TemporaryDirectory(prefix="lightnet-", dir=memory if roomy else None) as name:
+        yield name

@@ -1,0 +1,317 @@
+#!/usr/bin/env python3
+"""The Python module, as its users call it. Environment: LIGHTNET, PYTHONPATH. 77: NumPy is not here."""
+
+import ast
+import glob
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+try:
+    import numpy
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+import lightnet as ln
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+GRAPHS = ROOT / "graphs"
+SMALL = {"size": (24, 18), "samples": 4}
+
+
+def folders():
+    """Those that this module makes."""
+    return set(glob.glob("/dev/shm/lightnet-*")) | set(glob.glob(os.path.join(tempfile.gettempdir(), "lightnet-*")))
+
+
+def children():
+    """Processes that were started here and are still there."""
+    with open(f"/proc/self/task/{os.getpid()}/children", encoding="ascii") as file:
+        return file.read().split()
+
+
+def run(*words):
+    subprocess.run([os.environ["LIGHTNET"], *map(str, words)], check=True, capture_output=True)
+
+
+def cornell(**film):
+    """graphs/cornell.lua, in Python."""
+    direct = ln.DirectLighting(name="direct")
+    bounce = ln.PathTracing(name="bounce")
+    both = ln.Combine(direct, bounce, name="lighting")
+    scene = ln.Scene(GRAPHS / "cornell_box.pbrt", name="scene")
+    return ln.RayTracer(both, scene=scene, samples=4, film={"size": (24, 18), **film}, name="image")
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.before = folders()
+
+    def tearDown(self):
+        self.assertEqual(folders() - self.before, set(), "a folder was left")
+        self.assertEqual(children(), [], "a process was left")
+
+
+class Pictures(InFolder):
+    def exr(self, file):
+        try:
+            import OpenImageIO
+        except ImportError as missing:
+            self.skipTest(str(missing))
+        picture = OpenImageIO.ImageInput.open(str(file))
+        spec = picture.spec()
+        pixels = numpy.asarray(picture.read_image(0, spec.nchannels, OpenImageIO.FLOAT))
+        return {name: pixels[..., number] for number, name in enumerate(spec.channelnames)}
+
+    def test_have_the_numbers_of_the_exr(self):
+        run("run", GRAPHS / "cornell.lua", "--size", "24x18", "--samples", 4, "-o", self.folder / "x.exr")
+        picture, channels = ln.render(ln.load(GRAPHS / "cornell.lua"), **SMALL), self.exr(self.folder / "x.exr")
+        self.assertEqual(list(picture.layers), ["emission", "direct", "bounce"])
+        for name, pixels in {"": picture.beauty, **picture.layers}.items():
+            self.assertEqual((pixels.shape, pixels.dtype), ((18, 24, 3), numpy.float32))
+            for number, letter in enumerate("RGB"):
+                channel = f"{name}.{letter}" if name else letter
+                self.assertTrue(numpy.array_equal(pixels[..., number], channels[channel]), channel)
+
+    def test_have_what_is_shown_and_mattes_and_alpha_as_the_exr_has_them(self):
+        run("run", GRAPHS / "compositing.lua", "--size", "24x18", "--samples", 4, "-o", self.folder / "x.exr")
+        picture = ln.render(str(GRAPHS / "compositing.lua"), **SMALL)
+        channels = self.exr(self.folder / "x.exr")
+        self.assertTrue(numpy.array_equal(picture["depth"], channels["depth.Z"]))
+        self.assertTrue(numpy.array_equal(picture["normal"][..., 1], channels["normal.Y"]))
+        self.assertTrue(numpy.array_equal(picture.alpha, channels["A"]))
+        matte = picture.mattes["CryptoObject"]
+        self.assertTrue(numpy.array_equal(matte[..., 1, 1], channels["CryptoObject00.A"]))
+        masks = sum(picture.mask(name) for name in picture.manifests["CryptoObject"])
+        self.assertTrue(numpy.allclose(masks, picture.alpha, atol=1e-6))
+
+    def test_can_be_read_without_this_module(self):
+        file = self.folder / "x.npz"
+        run("run", GRAPHS / "compositing.lua", "--size", "24x18", "--samples", 4, "-o", self.folder / "x.exr", "--npz", file)
+        picture = ln.render(str(GRAPHS / "compositing.lua"), **SMALL)
+        with numpy.load(file) as arrays:
+            self.assertEqual(arrays["shown/depth"].shape, (18, 24, 3))
+            for name, pixels in picture.layers.items():
+                self.assertTrue(numpy.array_equal(arrays["layers/" + name], pixels), name)
+            self.assertTrue(numpy.array_equal(arrays["mattes/CryptoLamp"], picture.mattes["CryptoLamp"]))
+
+    def test_are_no_copies(self):
+        picture = ln.render(cornell())
+        for pixels in (picture.beauty, *picture.layers.values()):
+            self.assertFalse(pixels.flags.owndata)
+            self.assertTrue(pixels.flags.c_contiguous and pixels.flags.aligned and pixels.flags.writeable)
+            self.assertEqual(pixels.ctypes.data % 64, 0)
+        direct = picture.layers["direct"]
+        first = direct.copy()
+        del picture
+        self.assertTrue(numpy.array_equal(direct, first), "its memory lives as long as it does")
+
+    def test_are_saved_with_the_bytes_of_a_run(self):
+        run("run", GRAPHS / "cornell.lua", "--size", "24x18", "--samples", 4, "--gain", "bounce=0.3", "-o", self.folder / "x.exr")
+        ln.render(ln.load(GRAPHS / "cornell.lua"), self.folder / "y.exr", gain={"bounce": 0.3}, **SMALL)
+        self.assertEqual((self.folder / "x.exr").read_bytes(), (self.folder / "y.exr").read_bytes())
+        self.assertEqual((self.folder / "x.png").read_bytes(), (self.folder / "y.png").read_bytes())
+        again = ln.read(self.folder / "x.exr")
+        self.assertEqual(again.gains["bounce"], (numpy.float32(0.3).item(),) * 3)
+        self.assertTrue(numpy.array_equal(again.beauty, ln.render(ln.load(GRAPHS / "cornell.lua"), gain={"bounce": 0.3}, **SMALL)))
+
+    def test_are_mixed_with_the_bits_of_remix(self):
+        picture = ln.render(cornell(), self.folder / "x.exr")
+        run("remix", self.folder / "x.exr", "direct=0.5", "-o", self.folder / "y.exr")
+        self.assertTrue(numpy.array_equal(picture.mixed(direct=0.5), ln.read(self.folder / "y.exr").beauty))
+        with self.assertRaisesRegex(KeyError, "no layer is called lamp"):
+            picture.mixed(lamp=2)
+
+    def test_are_shown_by_notebooks(self):
+        picture = ln.render(cornell())
+        self.assertTrue(picture._repr_png_().startswith(b"\x89PNG"))
+        self.assertEqual(repr(picture), "<Picture 24x18, layers: emission, direct, bounce>")
+        self.assertEqual(picture.report["outcome"], "done")
+
+
+class Graphs(InFolder):
+    def test_of_values_give_the_bits_of_the_same_graph_in_lua(self):
+        graph = (GRAPHS / "cornell.lua").read_text()
+        self.assertIn("direct", graph)
+        ours, theirs = ln.render(cornell()), ln.render(ln.load(GRAPHS / "cornell.lua"), **SMALL)
+        self.assertTrue(numpy.array_equal(ours.beauty, theirs.beauty))
+
+    def test_give_the_same_bits_on_daemons_and_threads(self):
+        alone = ln.render(cornell(), threads=1)
+        for how in ({"threads": 3}, {"local_workers": 2}):
+            self.assertTrue(numpy.array_equal(ln.render(cornell(), **how).beauty, alone.beauty), how)
+
+    def test_take_constants(self):
+        file = self.folder / "graph.lua"
+        box = GRAPHS / "cornell_box.pbrt"
+        file.write_text(f"rays = 1 light = DirectLighting {{ samples = rays }} scene = Scene {{ '{box}' }}\n"
+                        "image = RayTracer { light, scene = scene, samples = 1, film = { 8, 8 } }")  # fmt: skip
+        one, two = ln.render(ln.load(file)), ln.render(ln.load(file, rays=2))
+        self.assertFalse(numpy.array_equal(one.beauty, two.beauty))
+
+    def test_name_nodes_after_their_kinds(self):
+        one, two = ln.DirectLighting(), ln.DirectLighting(samples=2)
+        scene = ln.Scene(GRAPHS / "cornell_box.pbrt")
+        picture = ln.render(ln.RayTracer(ln.Combine(one, two), scene=scene), **SMALL)
+        self.assertEqual(list(picture.layers), ["emission", "direct_lighting", "direct_lighting_2"])
+
+    def test_are_checked_and_drawn(self):
+        self.assertIn("sound: 5 nodes, 24x18", ln.check(cornell()))
+        self.assertIn("digraph", ln.dot(cornell()))
+
+    def test_have_constructors_with_the_help_of_describe(self):
+        self.assertIn("samples per pixel", ln.RayTracer.__doc__)
+        self.assertIn("alpha", str(ln.RayTracer.__signature__))
+        self.assertIn("PhotonMap", dir(ln))
+        with self.assertRaisesRegex(AttributeError, "did you mean 'PhotonMap'"):
+            ln.PhotonMapp
+
+    def test_have_types(self):
+        written = subprocess.run([sys.executable, ROOT / "python/stubs.py"], check=True, capture_output=True, text=True).stdout
+        there = (ROOT / "python/lightnet/__init__.pyi").read_text()
+        self.assertEqual(written, there, "python/stubs.py writes it")
+        classes = {node.name for node in ast.parse(there).body if isinstance(node, ast.ClassDef)}
+        self.assertIn("RayTracer", classes)
+
+
+class Errors(InFolder):
+    def test_name_the_line_of_python_and_what_was_meant(self):
+        with self.assertRaises(ln.UserError) as caught:
+            light = ln.DirectLighting(sampels=3)  # this line
+            scene = ln.Scene("nowhere.pbrt")
+            ln.render(ln.RayTracer(light, scene=scene))
+        line = pathlib.Path(__file__).read_text().splitlines().index(
+            "            light = ln.DirectLighting(sampels=3)  # this line") + 1  # fmt: skip
+        self.assertRegex(caught.exception.problems[0], rf"lightnet_test.py:{line}: DirectLighting 'direct_lighting': .*sampels")
+        self.assertIn("did you mean 'samples'", caught.exception.problems[0])
+        self.assertIn("can't read 'nowhere.pbrt'", caught.exception.problems[1])
+
+    def test_are_of_kinds(self):
+        with self.assertRaisesRegex(ln.UserError, "--sampels"):
+            ln.render(cornell(), sampels=3)
+        with self.assertRaises(ln.NoWorker):
+            ln.render(cornell(), hosts="tcp://127.0.0.1:1", insecure=True, wait=0)
+        self.assertTrue(issubclass(ln.NoWorker, ln.Error) and issubclass(ln.UserError, ln.Error))
+
+
+class Running(InFolder):
+    LONG = {"size": (64, 64), "samples": 1 << 20, "threads": 1}
+
+    def test_shows_the_picture_while_it_grows(self):
+        done = []
+        for picture in ln.progress(cornell(), every=0.05, size=(96, 96), samples=512):
+            done.append(picture.done)
+        self.assertGreater(len(done), 1)
+        self.assertEqual(done, sorted(done))
+        self.assertEqual(done[-1], 1)
+
+    def test_leaves_nothing_when_its_loop_is_left(self):
+        for picture in ln.progress(cornell(), every=0.05, **self.LONG):
+            self.assertLess(picture.done, 1)
+            with self.assertRaises(ValueError):
+                picture.save(self.folder / "x.exr")
+            break
+
+    def test_is_cancelled_with_the_picture_that_there_is(self):
+        going = ln.progress(cornell(), every=0.05, **self.LONG)
+        last = None
+        for last in going:
+            going.cancel()
+        self.assertTrue(0 < last.done < 1)
+        self.assertIn("cancelled", last.message)
+
+    def test_lets_other_threads_go_on(self):
+        counted, end = [0], threading.Event()
+
+        def count():
+            while not end.is_set():
+                counted[0] += 1
+                time.sleep(0.001)
+
+        thread = threading.Thread(target=count, daemon=True)
+        thread.start()
+        ln.render(cornell(), size=(64, 64), samples=128, threads=1)
+        end.set()
+        thread.join()
+        self.assertGreater(counted[0], 20)
+
+    def test_ends_at_an_interrupt_and_leaves_neither_a_process_nor_a_file(self):
+        script = f"import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})\nfrom lightnet_test import *\n"
+        script += "print('begun', flush=True)\ntry:\n    ln.render(cornell(), **Running.LONG)\n"
+        script += "except KeyboardInterrupt:\n    print('interrupted', children(), flush=True)\n"
+        process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+        self.assertEqual(process.stdout.readline(), "begun\n")
+        wait_until(lambda: folders() - self.before)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.stdout.read(), "interrupted []\n")
+        process.stdout.close()
+        self.assertEqual(process.wait(), 0)
+
+
+def wait_until(truth, seconds=30):
+    end = time.monotonic() + seconds
+    while not truth():
+        if time.monotonic() > end:
+            raise AssertionError("it never came")
+        time.sleep(0.01)
+
+
+class Arrays(InFolder):
+    FLOOR = {"vertices": [[-9, 0, -9], [9, 0, -9], [9, 0, 9], [-9, 0, 9]], "indices": [[0, 2, 1], [0, 3, 2]]}
+    DOWN = {"from": (0, 3, 0.01), "to": (0, 0, 0), "fov": 40}
+
+    def rendered(self, mesh, lamps=(), **options):
+        scene = ln.Scene(ln.World([mesh], lamps), camera=self.DOWN)
+        return ln.render(ln.RayTracer(ln.DirectLighting(), scene=scene, **options), size=(8, 8), samples=16)
+
+    # Light from straight above, of irradiance E: a matt surface of albedo a sends out a E / pi.
+    def test_make_scenes_that_reflect_what_they_should(self):
+        floor = ln.Mesh(**self.FLOOR, material={"type": "diffuse", "reflectance": (0.5, 0.25, 0.125)})
+        lamp = ln.Lamp("distant", L=(math.pi, math.pi, math.pi), to=(0, -1, 0), **{"from": (0, 0, 0)})
+        picture = self.rendered(floor, [lamp])
+        self.assertTrue(numpy.allclose(picture.beauty, (0.5, 0.25, 0.125), rtol=1e-4), picture.beauty[0, 0])
+
+    def test_shine(self):
+        picture = self.rendered(ln.Mesh(**self.FLOOR, emission=(1, 2, 3)))
+        self.assertTrue(numpy.allclose(picture.beauty, (1, 2, 3), rtol=1e-6))
+
+    def test_have_names_and_textures(self):
+        grey = self.folder / "grey.png"
+        grey.write_bytes(self.rendered(ln.Mesh(**self.FLOOR, emission=(0.25, 0.25, 0.25)))._repr_png_())
+        uv = numpy.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        shown = [ln.SurfaceFact(of=what, name=name) for what, name in (("uv", "st"), ("albedo", "albedo"))]
+        shown.append(ln.Cryptomatte(of="object", name="Objects"))
+        floor = ln.Mesh(**self.FLOOR, uv=uv, material={"type": "diffuse", "reflectance": grey}, name="floor")
+        picture = self.rendered(floor, [ln.Lamp("infinite", L=1.0)], show=shown)
+        self.assertTrue(numpy.allclose(picture["albedo"], 0.25, atol=0.01), picture["albedo"][0, 0])
+        self.assertEqual(list(picture.manifests["Objects"]), ["floor"])
+        self.assertTrue(numpy.allclose(picture.mask("floor"), 1))
+        self.assertEqual(picture["st"].shape, (8, 8, 2))
+        self.assertTrue(numpy.allclose(picture["st"].mean((0, 1)), 0.5, atol=0.01))
+
+    def test_say_what_does_not_fit(self):
+        for wrong, words in (
+            ({"vertices": [[0, 0]]}, r"vertices must be of shape \(n, 3\)"),
+            ({"indices": [[0, 1, 4]]}, "indices must be from 0 to 3"),
+            ({"indices": [[0.0, 1.0, 2.0]]}, "whole numbers"),
+            ({"normals": [[0, 1, 0]]}, "1 normals for 4 vertices"),
+        ):
+            with self.assertRaisesRegex(ln.UserError, words):
+                ln.Mesh(**{**self.FLOOR, **wrong})
+        with self.assertRaisesRegex(ln.UserError, "2 meshes are called 'mesh'"):
+            ln.World([ln.Mesh(**self.FLOOR), ln.Mesh(**self.FLOOR)])
+
+
+if __name__ == "__main__":
+    unittest.main()
