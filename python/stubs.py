@@ -33,6 +33,7 @@ from .errors import Error as Error, NoProgram as NoProgram, NoWorker as NoWorker
 from .errors import UserError as UserError
 from .graph import File as File, Node as Node, check as check, dot as dot, load as load
 from .picture import Picture as Picture, read as read
+from .race import Race as Race, race as race
 from .run import Run as Run, progress as progress, render as render
 from .scenes import Lamp as Lamp, Mesh as Mesh, World as World
 '''

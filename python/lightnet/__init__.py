@@ -14,12 +14,13 @@ Constructors are those of `lightnet describe`, with the same parameters; help(ln
 from .errors import Error, NoProgram, NoWorker, UnknownKey, UserError
 from .graph import File, Node, check, dot, load
 from .picture import Picture, read
+from .race import Race, race
 from .run import Run, progress, render
 from .scenes import Lamp, Mesh, World
 
 __all__ = [
-    "Error", "File", "Lamp", "Mesh", "NoProgram", "NoWorker", "Node", "Picture", "Run", "UnknownKey", "UserError", "World",
-    "check", "dot", "load", "progress", "read", "render",
+    "Error", "File", "Lamp", "Mesh", "NoProgram", "NoWorker", "Node", "Picture", "Race", "Run", "UnknownKey", "UserError", "World",
+    "check", "dot", "load", "progress", "race", "read", "render",
 ]  # fmt: skip
 
 _classes = {}

@@ -48,6 +48,8 @@ std::map<std::string, Words> printing(const test::Folder& folder, const std::str
     const std::string picture = folder / "picture.exr", graph = test::graph_file("direct.lua");
     return {{"run", {}},
             {"render", {}},
+            {"race", {}},
+            {"sweep", {}},
             {"remix", {}},
             {"clean", {}},
             {"bench-hosts", {}},

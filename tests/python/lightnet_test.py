@@ -185,6 +185,19 @@ class Graphs(InFolder):
         self.assertIn("RayTracer", classes)
 
 
+class Races(InFolder):
+    def test_hold_graphs_against_a_reference(self):
+        truth = ln.render(cornell(), samples=256)
+        scene = ln.Scene(GRAPHS / "cornell_box.pbrt")
+        direct = ln.RayTracer(ln.DirectLighting(), scene=scene, film={"size": (24, 18)})
+        held = ln.race({"all": cornell(), "direct": direct}, truth, seconds=0.4, seeds=2, threads=1, size=(24, 18))
+        self.assertEqual([(row["name"], row["seed"]) for row in held.ends], [("all", 1), ("direct", 1), ("all", 2), ("direct", 2)])
+        errors = {row["name"]: row["relmse"] for row in held.ends}
+        self.assertLess(errors["all"], errors["direct"])
+        self.assertIn("<polyline", held._repr_html_())
+        self.assertIn("relMSE", repr(held))
+
+
 class Errors(InFolder):
     def test_name_the_line_of_python_and_what_was_meant(self):
         with self.assertRaises(ln.UserError) as caught:
