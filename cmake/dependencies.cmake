@@ -11,6 +11,7 @@ target_link_libraries(embree_any INTERFACE embree)
 target_include_directories(embree_any SYSTEM INTERFACE "${CMAKE_CURRENT_LIST_DIR}/include")
 target_compile_definitions(embree_any INTERFACE LIGHTNET_EMBREE=${embree_VERSION_MAJOR})
 find_package(OpenEXR 3 CONFIG REQUIRED)                    # pictures out (core/film), textures in (core/readers)
+pkg_check_modules(ocio REQUIRED IMPORTED_TARGET OpenColorIO>=2.1)   # how pictures are shown (core/film)
 find_package(PNG REQUIRED)                                 # pictures out, textures in
 find_package(ZLIB REQUIRED)                                # packed scene files
 find_package(JPEG REQUIRED)                                # textures in

@@ -7,6 +7,7 @@ set -euo pipefail
 packages=(
     build-essential cmake ninja-build pkg-config        # the build
     libembree-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev libtiff-dev   # rays and pictures
+    libopencolorio-dev                                  # how pictures are shown
     libwebp-dev libgif-dev libzstd-dev                  # more kinds of pictures
     libjemalloc-dev                                     # memory in large pages
     libeigen3-dev                                       # linear equations

@@ -11,6 +11,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
+#include "core/film/ocio.hpp"
 
 namespace lightnet {
 namespace {
@@ -23,11 +24,6 @@ std::uint8_t srgb(float linear) {
     return static_cast<std::uint8_t>(std::lround(curve * 255));
 }
 
-// Of a part of a whole, which knows no curve.
-std::uint8_t level_of(float part) {
-    return part > 0 ? static_cast<std::uint8_t>(std::lround(std::min(part, 1.0f) * 255)) : std::uint8_t{0};
-}
-
 // Halves the numbers between 0 and 1 as the integers that they are stored as, which have the same order.
 float least_of_level(int level) {
     std::uint32_t below = 0, there = std::bit_cast<std::uint32_t>(1.0f);
@@ -38,19 +34,42 @@ float least_of_level(int level) {
     return std::bit_cast<float>(there);
 }
 
-// What is brighter than a film shows runs into white instead of being clipped.
-float filmic_curve(float linear) {
-    if (!(linear > 0)) return 0;
-    if (linear > 1e4f) return 1;  // long before its square overflows
-    return linear * (2.51f * linear + 0.03f) / (linear * (2.43f * linear + 0.59f) + 0.14f);
+// In words.
+std::string curve_of(const PngView& view) {
+    switch (view.tone) {
+        case Tone::filmic:
+            return "filmic curve";
+        case Tone::aces:
+            return "ACES curve";
+        case Tone::agx:
+            return "AgX curve";
+        case Tone::ocio:
+            return "OpenColorIO's view " + view.ocio;
+        default:
+            return "clipped to 0..1";
+    }
+}
+
+std::uint8_t quantized(float encoded) {
+    return encoded > 0 ? static_cast<std::uint8_t>(std::lround(std::min(encoded, 1.0f) * 255)) : std::uint8_t{0};
+}
+
+// What the pixels show before they are toned.
+std::vector<Rgb> exposed(const Picture& picture, float exposure, bool with_alpha) {
+    std::vector<Rgb> pixels = picture.beauty;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        pixels[i] *= exposure;
+        if (with_alpha && picture.alpha[i] > 0) pixels[i] = pixels[i] / picture.alpha[i];
+    }
+    return pixels;
 }
 
 }  // namespace
 
 std::string tone_of(const PngView& view) {
     const auto exposure = view.stops == 0 ? std::string("1") : fmt::format("2^{:.1f}", view.stops);
-    return "exposure " + exposure + (view.filmic ? ", filmic curve" : ", clipped to 0..1") +
-           ", sRGB transfer curve, 8 bits" + (view.alpha ? ", alpha" : "");
+    const auto curve = view.tone == Tone::ocio ? ", 8 bits" : ", sRGB transfer curve, 8 bits";
+    return "exposure " + exposure + ", " + curve_of(view) + curve + (view.alpha ? ", alpha" : "");
 }
 
 std::array<float, 255> least_of_levels() {
@@ -62,16 +81,16 @@ std::array<float, 255> least_of_levels() {
 std::string png_of(const Picture& picture, const PngView& view) {
     const auto exposure = static_cast<float>(std::exp2(view.stops));
     const bool with_alpha = view.alpha && !picture.alpha.empty();
+    std::vector<Rgb> pixels = exposed(picture, exposure, with_alpha);
+    if (view.tone == Tone::ocio) ocio::show(pixels, view.ocio);
     std::vector<std::uint8_t> values;
-    values.reserve(picture.beauty.size() * (with_alpha ? 4 : 3));
-    for (std::size_t i = 0; i < picture.beauty.size(); ++i) {
-        const Rgb& pixel = picture.beauty[i];
-        const float covered = with_alpha ? picture.alpha[i] : 1, share = covered > 0 ? covered : 1;
-        for (const float channel : {pixel.r, pixel.g, pixel.b}) {
-            const float exposed = channel * exposure / share;
-            values.push_back(srgb(view.filmic ? filmic_curve(exposed) : exposed));
-        }
-        if (with_alpha) values.push_back(level_of(covered));
+    values.reserve(pixels.size() * (with_alpha ? 4 : 3));
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const bool encoded = view.tone == Tone::ocio;
+        const Rgb shown = encoded ? pixels[i] : toned(pixels[i], view.tone);
+        for (const float channel : {shown.r, shown.g, shown.b})
+            values.push_back(encoded ? quantized(channel) : srgb(channel));
+        if (with_alpha) values.push_back(quantized(picture.alpha[i]));
     }
 
     png_image image{};

@@ -6,14 +6,16 @@
 #include <string>
 
 #include "core/film/picture.hpp"
+#include "core/film/tone_curves.hpp"
 
 namespace lightnet {
 
-/// How a PNG shows a picture: so many stops brighter than it is, and with a filmic curve or clipped.
+/// How a PNG shows a picture: so many stops brighter than it is, and by a curve, a view of OpenColorIO, or clipped.
 struct PngView {
     double stops = 0;
-    bool filmic = false;  // Narkowicz 2016, "ACES Filmic Tone Mapping Curve", per channel
-    bool alpha = false;   // with the picture's alpha, if it has one: colours are then those of what covers the pixel
+    Tone tone = Tone::clipped;
+    std::string ocio{};  // the view, if that tones it
+    bool alpha = false;  // with the picture's alpha, if it has one: colours are then those of what covers the pixel
     friend bool operator==(const PngView&, const PngView&) = default;
 };
 

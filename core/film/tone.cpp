@@ -61,13 +61,34 @@ std::optional<PictureView> picture_view(std::string_view text) {
     if (text == "auto") return PictureView::automatic;
     if (text == "plain") return PictureView::plain;
     if (text == "filmic") return PictureView::filmic;
+    if (text == "aces") return PictureView::aces;
+    if (text == "agx") return PictureView::agx;
     return std::nullopt;
 }
+
+namespace {
+
+Tone tone_by(PictureView view) {
+    switch (view) {
+        case PictureView::filmic:
+            return Tone::filmic;
+        case PictureView::aces:
+            return Tone::aces;
+        case PictureView::agx:
+            return Tone::agx;
+        case PictureView::ocio:
+            return Tone::ocio;
+        default:
+            return Tone::clipped;
+    }
+}
+
+}  // namespace
 
 PngView png_view(const PngRequest& wanted, const Brightness& brightness, bool exposed) {
     const bool chosen = exposed || wanted.view == PictureView::plain;
     const double usual = chosen ? 0 : helpful_stops(brightness).value_or(0);
-    return {wanted.stops.value_or(usual), wanted.view == PictureView::filmic, wanted.alpha};
+    return {wanted.stops.value_or(usual), tone_by(wanted.view), wanted.ocio, wanted.alpha};
 }
 
 bool hardly_lit(const Brightness& brightness) { return brightness.black > most && brightness.lit < hardly_any; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/film/picture.hpp"
@@ -26,16 +27,18 @@ Brightness brightness_of(const Picture& picture, double stops = 0);
 std::optional<double> helpful_stops(const Brightness& brightness);
 
 /// How the PNG beside a picture shows it, as users choose it. automatic: with the exposure of helpful_stops(); plain:
-/// as it was computed; filmic: with that exposure and a filmic curve.
-enum class PictureView { automatic, plain, filmic };
+/// as it was computed; filmic, aces, agx: with that exposure and such a curve; ocio: with that exposure, by a view of
+/// OpenColorIO.
+enum class PictureView { automatic, plain, filmic, aces, agx, ocio };
 
-/// "auto", "plain" or "filmic".
+/// "auto", "plain", "filmic", "aces" or "agx".
 std::optional<PictureView> picture_view(std::string_view text);
 
 /// What the PNG beside a picture is to be like, as its user says.
 struct PngRequest {
     PngRequest(PictureView wanted = PictureView::automatic) : view(wanted) {}  // a view alone says all that most want
     PictureView view;
+    std::string ocio{};             // its view, if that is asked for
     std::optional<double> stops{};  // by which it is brighter than the picture; none: as `view` has it
     bool alpha = false;             // it has the picture's alpha, where that has one
 };

@@ -69,6 +69,7 @@ const std::array homes{
     Home{"pugixml", std::regex("pugixml\\.hpp"), std::regex("core/readers/mitsuba/.*")},
     Home{"Draco", std::regex("draco/.*"), std::regex("core/readers/gltf/draco\\.cpp")},
     Home{"meshoptimizer", std::regex("meshoptimizer\\.h"), std::regex("core/readers/gltf/meshopt\\.cpp")},
+    Home{"OpenColorIO", std::regex("OpenColorIO/.*"), std::regex("core/film/ocio\\.cpp")},
     Home{"zlib", std::regex("zlib\\.h"),
          std::regex("core/(film/npz|readers/(mitsuba/\\w+|files/gzip|images/image_ktx))\\.cpp")},
     Home{"Boost.Context", std::regex("boost/context/.*"), std::regex("core/run/fiber/.*")},

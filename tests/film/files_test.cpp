@@ -267,16 +267,16 @@ TEST(Png, ClipsAndFollowsTheCurveOfSrgb) {
 
 TEST(Png, ShowsAPictureBrighterWithoutChangingIt) {
     const Picture picture{1, 1, {{0.125f, 0.25f, 1}}, {}}, brighter{1, 1, {{0.5f, 1, 4}}, {}};
-    EXPECT_EQ(png_of(picture, {2, false}), png_of(brighter));
+    EXPECT_EQ(png_of(picture, {2}), png_of(brighter));
     EXPECT_THAT(tone_of({}), HasSubstr("exposure 1, clipped"));
-    EXPECT_THAT(tone_of({2, true}), HasSubstr("exposure 2^2.0, filmic"));
+    EXPECT_THAT(tone_of({2, Tone::filmic}), HasSubstr("exposure 2^2.0, filmic"));
 }
 
 // Narkowicz's formula gives 0.2669 for 0.18, 0.8038 for 1 and more than 1, which is white, from 8 or so on.
 TEST(Png, RunsIntoWhiteByAFilmicCurve) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), far = std::numeric_limits<float>::infinity();
     const Picture picture{2, 1, {{0.18f, 1, 20}, {nan, -1, far}}, {}};
-    EXPECT_THAT(decoded(png_of(picture, {0, true})), ::testing::ElementsAre(141, 232, 255, 0, 0, 255));
+    EXPECT_THAT(decoded(png_of(picture, {0, Tone::filmic})), ::testing::ElementsAre(141, 232, 255, 0, 0, 255));
 }
 
 // sRGB of 0.5 is 188; what covers half of a pixel has its own colour there, as PNG is not premultiplied.

@@ -55,10 +55,10 @@ TEST(Brightness, KnowsWhenNoExposureHelps) {
 
 TEST(PictureView, ChoosesAnExposureUnlessSomebodyHas) {
     const auto dark = brightness_of(two_greys(0.9, 0.0001f, 0));
-    EXPECT_EQ(png_view(PictureView::automatic, dark), (PngView{*helpful_stops(dark), false}));
+    EXPECT_EQ(png_view(PictureView::automatic, dark), (PngView{*helpful_stops(dark)}));
     EXPECT_EQ(png_view(PictureView::automatic, dark, true), PngView{});
     EXPECT_EQ(png_view(PictureView::plain, dark), PngView{});
-    EXPECT_EQ(png_view(PictureView::filmic, dark), (PngView{*helpful_stops(dark), true}));
+    EXPECT_EQ(png_view(PictureView::filmic, dark), (PngView{*helpful_stops(dark), Tone::filmic}));
     EXPECT_EQ(png_view(PictureView::automatic, brightness_of(two_greys(0.5, 0.2f, 0.8f))), PngView{})
         << "what can be seen stays as it is";
 }
@@ -68,7 +68,8 @@ TEST(PngRequest, HasTheLastWordAboutTheExposure) {
     PngRequest wanted = PictureView::filmic;
     wanted.stops = -1;
     wanted.alpha = true;
-    for (const bool exposed : {false, true}) EXPECT_EQ(png_view(wanted, dark, exposed), (PngView{-1, true, true}));
+    for (const bool exposed : {false, true})
+        EXPECT_EQ(png_view(wanted, dark, exposed), (PngView{-1, Tone::filmic, {}, true}));
     EXPECT_EQ(brightness_of(two_greys(0.25, 1, 0.00001f), 1).clipped, 0.25);
 }
 

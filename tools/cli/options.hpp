@@ -98,7 +98,7 @@ void add_clean(CLI::App& verb, PictureOptions& picture);
 /// An option, or where `name` has no dashes the words of the command line, that gives layers gains.
 CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gains, const char* help);
 /// --view
-void add_view(CLI::App& verb, PictureView& view);
+void add_view(CLI::App& verb, PngRequest& png);
 /// --view, --exposure and, where help is given for it, --alpha.
 void add_png(CLI::App& verb, PngRequest& png, const char* alpha_help);
 void add_output(CLI::App& verb, std::string& file, const char* help);

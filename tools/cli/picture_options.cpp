@@ -7,6 +7,9 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/error.hpp"
+#include "core/base/suggestion.hpp"
+#include "core/film/ocio.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/support/command_line.hpp"
@@ -90,19 +93,41 @@ CLI::Option* add_gains(CLI::App& verb, const char* name, std::vector<Gain>& gain
         ->check(check);
 }
 
-void add_view(CLI::App& verb, PictureView& view) {
+namespace {
+
+// "" where it is one.
+std::string mistake_in_view(const std::string& text) {
+    if (picture_view(text)) return "";
+    try {
+        auto known = ocio::views();
+        if (std::find(known.begin(), known.end(), text) != known.end()) return "";
+        const bool none = known.empty();
+        known.insert(known.end(), {"auto", "plain", "filmic", "aces", "agx"});
+        return "must be auto, plain, filmic, aces, agx or a view of the config of OpenColorIO that $OCIO names" +
+               std::string(none ? " (which names none)" : "") + ", not '" + text + "'" + did_you_mean(text, known);
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+}  // namespace
+
+void add_view(CLI::App& verb, PngRequest& png) {
     verb.add_option_function<std::string>(
-            "--view", [&view](const std::string& text) { view = *picture_view(text); },
+            "--view",
+            [&png](const std::string& text) {
+                png.view = picture_view(text).value_or(PictureView::ocio);
+                png.ocio = png.view == PictureView::ocio ? text : "";
+            },
             "how the PNG shows the picture; auto: with an exposure by which it can be seen, unless one was chosen; "
-            "plain: as computed; filmic: as auto, with a filmic curve. The EXR is the same")
-        ->type_name("auto|plain|filmic")
-        ->check([](const std::string& text) {
-            return picture_view(text) ? "" : "must be auto, plain or filmic, not '" + text + "'";
-        });
+            "plain: as computed; filmic, aces, agx: as auto, with such a curve; VIEW or DISPLAY/VIEW: as auto, by "
+            "OpenColorIO and the config that $OCIO names. The EXR is the same")
+        ->type_name("auto|plain|filmic|aces|agx|VIEW")
+        ->check(mistake_in_view);
 }
 
 void add_png(CLI::App& verb, PngRequest& png, const char* alpha_help) {
-    add_view(verb, png.view);
+    add_view(verb, png);
     verb.add_option("--exposure", png.stops,
                     "show the picture so many stops brighter in the PNG; each makes it twice as bright. The EXR is the "
                     "same: gains change that, or 'exposure' of the graph's scene")

@@ -131,7 +131,7 @@ std::string missing_frames(const std::vector<FrameFile>& frames) {
     return text;
 }
 
-PngView view_of_film(const std::vector<FrameFile>& frames, PictureView wanted) {
+PngView view_of_film(const std::vector<FrameFile>& frames, const PngRequest& wanted) {
     return png_view(wanted, brightness_of(picture_of_frame(frames.front().file)));
 }
 
@@ -167,7 +167,7 @@ void write_sheet(const std::vector<FrameFile>& frames, const PngView& view, cons
     for (std::uint32_t i = 0; i < count; ++i)
         lay(sheet, sheet_margin + i % columns * width, sheet_margin + i / columns * height,
             picture_of_frame(frames[i].file), gain);
-    write_png(png, sheet, {0, view.filmic});
+    write_png(png, sheet, {0, view.tone, view.ocio});
 }
 
 void expect_film_place(const fs::path& film) {

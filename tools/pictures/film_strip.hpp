@@ -24,7 +24,7 @@ std::vector<FrameFile> frame_files(const std::string& pattern);
 std::string missing_frames(const std::vector<FrameFile>& frames);
 
 /// How all of them are shown: as the first, so that none flickers. Throws UserError when that can't be read.
-PngView view_of_film(const std::vector<FrameFile>& frames, PictureView wanted);
+PngView view_of_film(const std::vector<FrameFile>& frames, const PngRequest& wanted);
 
 /// Writes each as a PNG, whose name `name` gives with the place of the frame in the film, from 1 on. Throws UserError
 /// when one can't be read or has another size than the first, or when they would take the place of the frames' own

@@ -27,7 +27,7 @@ constexpr double usual_rate = 24;  // frames per second
 struct FilmOptions {
     std::string pictures, output, sheet;
     FrameOptions frames;
-    PictureView view = PictureView::automatic;
+    PngRequest view;
 };
 
 void describe_film(CLI::App& verb, FilmOptions& options) {

@@ -21,7 +21,7 @@ namespace {
 struct FitOptions {
     std::string picture, target, output;
     bool grey = false;
-    PictureView view = PictureView::automatic;
+    PngRequest view;
 };
 
 void describe_fit(CLI::App& verb, FitOptions& options) {
