@@ -1,4 +1,5 @@
-# Packages: `cpack` in a build of the preset "package" (scripts/package.sh) makes lightnet, lightnetd, lightnet-dev, python3-lightnet and
+# Packages: `cpack` in a build of the preset "package" (scripts/package.sh) makes lightnet, lightnetd, lightnet-dev,
+# python3-lightnet and
 # debug symbols of the programs as .deb, and the same as tar.gz. They are the components of cmake/install.cmake.
 set(CPACK_PACKAGE_NAME lightnet)
 set(CPACK_PACKAGE_VENDOR lightnet)

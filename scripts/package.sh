@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# package.sh [FOLDER]: makes packages of this tree (.deb, tar.gz, sources) and puts them into FOLDER (default: out).
+# package.sh [FOLDER]: makes packages of this tree (.deb, tar.gz, sources, a wheel of the module for Python) and puts them
+# into FOLDER (default: out).
 # Two builds of one commit give the same bytes: all times in them are those of the commit.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -20,6 +21,8 @@ rm -rf build/package/_CPack_Packages
 (cd build/package && cpack -B "$folder" >cpack.log 2>&1 && cpack --config CPackSourceConfig.cmake -B "$folder" >>cpack.log 2>&1) ||
     { cat build/package/cpack.log; exit 1; }
 rm -rf "$folder/_CPack_Packages"
+
+python3 python/wheel.py "$folder" >/dev/null
 
 # What cpack gets wrong: times in the tar, and, in packages of symbols, checksums of files by where they were staged.
 again=$(mktemp -d)

@@ -64,5 +64,5 @@ def folder():
     memory = "/dev/shm"
     room = os.statvfs(memory) if os.path.isdir(memory) and os.access(memory, os.W_OK) else None
     roomy = room is not None and room.f_bavail * room.f_frsize > least_room
-    with tempfile.TemporaryDirectory(prefix="lightnet-", dir=memory if roomy else None) as name:
+    with tempfile.TemporaryDirectory(prefix=f"lightnet-{os.getpid()}-", dir=memory if roomy else None) as name:
         yield name

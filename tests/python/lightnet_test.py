@@ -6,6 +6,7 @@ import glob
 import math
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -27,9 +28,10 @@ GRAPHS = ROOT / "graphs"
 SMALL = {"size": (24, 18), "samples": 4}
 
 
-def folders():
-    """Those that this module makes."""
-    return set(glob.glob("/dev/shm/lightnet-*")) | set(glob.glob(os.path.join(tempfile.gettempdir(), "lightnet-*")))
+def folders(process=None):
+    """Those that the module makes in a process, this one if none is named."""
+    name = f"lightnet-{process or os.getpid()}-*"
+    return glob.glob(os.path.join("/dev/shm", name)) + glob.glob(os.path.join(tempfile.gettempdir(), name))
 
 
 def children():
@@ -56,10 +58,9 @@ class InFolder(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        self.before = folders()
 
     def tearDown(self):
-        self.assertEqual(folders() - self.before, set(), "a folder was left")
+        self.assertEqual(folders(), [], "a folder was left")
         self.assertEqual(children(), [], "a process was left")
 
 
@@ -177,6 +178,26 @@ class Graphs(InFolder):
         with self.assertRaisesRegex(AttributeError, "did you mean 'PhotonMap'"):
             ln.PhotonMapp
 
+    def test_are_of_the_version_of_the_program(self):
+        said = subprocess.run([os.environ["LIGHTNET"], "--version"], check=True, capture_output=True, text=True).stdout
+        self.assertEqual(said.split()[1], self.version())
+
+    def test_come_as_a_wheel(self):
+        made = [sys.executable, ROOT / "python/wheel.py"]
+        names = [subprocess.run([*made, self.folder], check=True, capture_output=True, text=True).stdout.strip() for _ in "ab"]
+        self.assertEqual(names[0], f"lightnet-{self.version()}-py3-none-any.whl")
+        wheel = self.folder / names[0]
+        environment = {**os.environ, "PYTHONPATH": str(wheel)}  # a wheel of Python alone can be imported as it is
+        command = "import lightnet; print(lightnet.__file__, lightnet.RayTracer.kind)"
+        said = subprocess.run(
+            [sys.executable, "-c", command], check=True, capture_output=True, text=True, env=environment
+        ).stdout  # fmt: skip
+        self.assertEqual(said.split(), [str(wheel / "lightnet/__init__.py"), "RayTracer"])
+
+    @staticmethod
+    def version():
+        return re.search(r'^version = "(.*)"', (ROOT / "python/pyproject.toml").read_text(), re.MULTILINE)[1]
+
     def test_have_types(self):
         written = subprocess.run([sys.executable, ROOT / "python/stubs.py"], check=True, capture_output=True, text=True).stdout
         there = (ROOT / "python/lightnet/__init__.pyi").read_text()
@@ -265,11 +286,12 @@ class Running(InFolder):
         script += "except KeyboardInterrupt:\n    print('interrupted', children(), flush=True)\n"
         process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
         self.assertEqual(process.stdout.readline(), "begun\n")
-        wait_until(lambda: folders() - self.before)
+        wait_until(lambda: folders(process.pid))
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.stdout.read(), "interrupted []\n")
         process.stdout.close()
         self.assertEqual(process.wait(), 0)
+        self.assertEqual(folders(process.pid), [])
 
 
 def wait_until(truth, seconds=30):

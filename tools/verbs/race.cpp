@@ -113,7 +113,11 @@ int race(const RaceOptions& options, const Launcher& launcher) {
                 write_results(options, laps, track);
             }
     } catch (const Track::Interrupted&) {
+        launcher.out << table_of(laps);
         return exit_code::interrupted;
+    } catch (const Error&) {
+        launcher.out << table_of(laps);
+        throw;
     }
     launcher.out << table_of(laps);
     launcher.err << options.page << ", " << options.csv << '\n';
