@@ -36,6 +36,7 @@ from .picture import Picture as Picture, read as read
 from .race import Race as Race, race as race
 from .run import Run as Run, progress as progress, render as render
 from .scenes import Lamp as Lamp, Mesh as Mesh, World as World
+from .session import Session as Session
 '''
 
 

@@ -17,9 +17,10 @@ from .picture import Picture, read
 from .race import Race, race
 from .run import Run, progress, render
 from .scenes import Lamp, Mesh, World
+from .session import Session
 
 __all__ = [
-    "Error", "File", "Lamp", "Mesh", "NoProgram", "NoWorker", "Node", "Picture", "Race", "Run", "UnknownKey", "UserError", "World",
+    "Error", "File", "Lamp", "Mesh", "NoProgram", "NoWorker", "Node", "Picture", "Race", "Run", "Session", "UnknownKey", "UserError", "World",
     "check", "dot", "load", "progress", "race", "read", "render",
 ]  # fmt: skip
 

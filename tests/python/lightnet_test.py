@@ -206,6 +206,28 @@ class Graphs(InFolder):
         self.assertIn("RayTracer", classes)
 
 
+class Sessions(InFolder):
+    def test_give_each_edit_the_bits_of_a_run(self):
+        with ln.Session(cornell(), threads=2) as session:
+            self.assertTrue(numpy.array_equal(session.picture().beauty, ln.render(cornell()).beauty))
+            there = {"from": (400, 300, -700), "to": (278, 250, 280), "fov": 50}
+            pictures = list(session.edits(set={"image.samples": 40}, camera=there))
+            self.assertGreater(len(pictures), 1)
+            scene = ln.Scene(GRAPHS / "cornell_box.pbrt", camera=there, name="scene")
+            both = ln.Combine(ln.DirectLighting(name="direct"), ln.PathTracing(name="bounce"), name="lighting")
+            fresh = ln.RayTracer(both, scene=scene, samples=40, film={"size": (24, 18)}, name="image")
+            self.assertTrue(numpy.array_equal(pictures[-1].beauty, ln.render(fresh).beauty))
+            with self.assertRaisesRegex(ln.UserError, "did you mean 'direct'"):
+                session.edit(set={"dirct.samples": 4})
+            back = session.edit(set={"image.samples": None}, camera=None)
+            self.assertTrue(numpy.array_equal(back.beauty, ln.render(cornell()).beauty))
+
+    def test_say_what_is_wrong_with_their_graph(self):
+        with ln.Session(ln.RayTracer(ln.DirectLighting(sampels=1), scene=ln.Scene("none.pbrt"))) as session:
+            with self.assertRaisesRegex(ln.UserError, "did you mean 'samples'"):
+                session.picture()
+
+
 class Races(InFolder):
     def test_hold_graphs_against_a_reference(self):
         truth = ln.render(cornell(), samples=256)
