@@ -10,13 +10,14 @@ namespace {
 
 // One server for all: that it still answers the next one is part of what is tested.
 struct WatchedBoard {
-    WatchBoard board{{0, 0, 40, 40}, 2};
-    WatchServer server{{{}, "right", "<p>the page</p>", R"({"hello":{}})", [](const WatchCommand&) {}}, board};
+    std::shared_ptr<WatchBoard> board = std::make_shared<WatchBoard>(Window{0, 0, 40, 40}, 2);
+    WatchServer server{{{}, "right", "<p>the page</p>", [](const std::string&) {}},
+                       {R"({"hello":{}})", board, [](const WatchCommand&) {}}};
     WatchedBoard() {
         const Tile whole{0, 0, 40, 40};
-        board.show(whole, std::vector<Rgb>(whole.pixels() * 2, Rgb{1, 1, 1}));
-        board.say("a line");
-        board.tell("{}");
+        board->show(whole, std::vector<Rgb>(whole.pixels() * 2, Rgb{1, 1, 1}));
+        board->say("a line");
+        board->tell("{}");
     }
 };
 
@@ -38,7 +39,7 @@ std::vector<std::string> seeds() {
     const std::string upgrade = "GET /live HTTP/1.1\r\n" + host +
                                 "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
-    const std::string said = R"({"do":"check","token":"right"})";
+    const std::string said = R"({"do":"edit","edit":{"set":{}},"token":"right"})";
     return {"GET / HTTP/1.1\r\n" + host + "\r\n",
             "POST /state HTTP/1.1\r\n" + host + "Origin: http://127.0.0.1:PORT\r\nContent-Length: 2\r\n\r\nab",
             "GET /state HTTP/1.1\r\n" + host + "Transfer-Encoding: chunked\r\n\r\n2\r\nab\r\n0\r\n\r\n",

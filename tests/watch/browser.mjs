@@ -163,6 +163,52 @@ try {
     await report_dark.waitForSelector("text=/is lost/");
     await shot(report_dark, "report-dark-600");
 
+    // A session: its page moves the camera and sets parameters, and what the launcher writes is what a fresh run would.
+    const session = start("lightnet", ["session", graph, "--watch", "--threads", "1", "--size", "96x96", "--samples", "4",
+        "-o", join(folder, "s.exr"), "--json"]);
+    const stage = await open((await session.hears(/watch it at (\S+)/))[1]);
+    const finished = (edit) => session.hears(new RegExp(`"event":"picture","edit":${edit},[^\n]*"finished":true`));
+    await stage.waitForSelector('[data-testid="camera"]');
+    await finished(0);
+    for (let i = 0; i < 100 && sum(await pixels(stage)) <= 96 * 96 * 255; ++i) await pause(50);
+    assert(sum(await pixels(stage)) > 96 * 96 * 255, "who comes when a picture is finished sees it");
+    await stage.getByTestId("keep").click();
+    await stage.getByLabel("from x").fill("420");
+    await stage.getByLabel("from x").press("Enter");
+    await finished(1);
+    assert.match(await stage.getByTestId("camera-line").textContent(), /from = { 420, 273, -800 }/);
+    await stage.getByTestId("node").selectOption("direct");
+    await stage.locator('[id="direct.samples"]').fill("2");
+    await stage.locator('[id="direct.samples"]').press("Enter");
+    await finished(2);
+    const line = await stage.getByTestId("camera-line").textContent();
+    const { readFileSync: read, writeFileSync: write } = await import("node:fs");
+    write(join(folder, "fresh.lua"), read(graph, "utf8").replace("samples = 1 }", "samples = 2 }")
+        .replace('"cornell_box.pbrt"', `"${join(dirname(graph), "cornell_box.pbrt")}", ${line}`));
+    const fresh = start("lightnet", ["run", join(folder, "fresh.lua"), "--threads", "1", "--size", "96x96", "--samples", "4",
+        "-o", join(folder, "f.exr")]);
+    assert.equal(await fresh.ended, 0, fresh.said);
+    const compared = spawnSync(join(programs, "lightnet"), ["compare", "s.exr", "f.exr"], { cwd: folder });
+    assert.match(String(compared.stdout), /all bits are equal/, "the line of the page gives its picture");
+    await stage.getByTestId("wipe").fill("0.5");
+    await stage.getByTestId("gains").click();
+    await stage.getByLabel("mute bounce").click();
+    await shot(stage, "session-light-1400");
+    await stage.locator('[id="direct.samples"]').fill("-3");
+    await stage.locator('[id="direct.samples"]').press("Enter");
+    await stage.getByTestId("problem").waitFor();
+    assert.match(await stage.getByTestId("problem").textContent(), /'samples' is -3/);
+    await stage.getByTestId("moving").check();
+    const { x, y, width, height } = await stage.getByTestId("picture").boundingBox();
+    await stage.mouse.move(x + width / 2, y + height / 2);
+    await stage.mouse.down();
+    for (let step = 1; step <= 10; ++step) await stage.mouse.move(x + width / 2 + 8 * step, y + height / 2);
+    await stage.mouse.up();
+    await pause(300);
+    assert.notEqual(await stage.getByTestId("camera-line").textContent(), line, "a drag moves the camera");
+    await stage.getByText("End session").click();
+    assert.equal(await session.ended, 130, session.said);
+
     assert.deepEqual(complaints, []);
     assert.deepEqual(foreign, []);
     console.log("all is shown as it is");

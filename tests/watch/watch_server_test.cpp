@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -27,8 +28,9 @@ class WatchServerTest : public ::testing::Test {
 protected:
     static constexpr std::size_t side = 512;
 
-    WatchServer::Options options() {
-        return {{}, "right", "<p>the page</p>", R"({"hello":{"graph":"box.lua"}})", [this](WatchCommand command) {
+    WatchServer::Options options() { return {{}, "right", "<p>the page</p>"}; }
+    WatchStage stage() {
+        return {R"({"hello":{"graph":"box.lua"}})", shown, [this](WatchCommand command) {
                     const std::lock_guard lock(mutex);
                     commands.push_back(std::move(command));
                 }};
@@ -52,8 +54,9 @@ protected:
 
     std::mutex mutex;
     std::vector<WatchCommand> commands;
-    WatchBoard board{{0, 0, side, side}, 1};
-    WatchServer server{options(), board};
+    std::shared_ptr<WatchBoard> shown = std::make_shared<WatchBoard>(Window{0, 0, side, side}, 1);
+    WatchBoard& board = *shown;
+    WatchServer server{options(), stage()};
 };
 
 TEST_F(WatchServerTest, ServesThePageAndTheState) {
@@ -169,7 +172,7 @@ TEST_F(WatchServerTest, GivesWhoComesAgainAllOfThePicture) {
 TEST_F(WatchServerTest, TakesNoMoreThanSoMany) {
     auto few = options();
     few.most_watchers = 1;
-    WatchServer small(few, board);
+    WatchServer small(few, stage());
     const auto name = "127.0.0.1:" + std::to_string(small.port());
     Visitor first(small.port()), second(small.port());
     EXPECT_TRUE(first.watch(name));
@@ -180,7 +183,7 @@ TEST_F(WatchServerTest, DropsWhoIsTooSlowAndServesTheOthers) {
     auto hasty = options();
     hasty.slow_seconds = 1;
     hasty.send_buffer = 4096;
-    WatchServer quick(hasty, board);
+    WatchServer quick(hasty, stage());
     const auto name = "127.0.0.1:" + std::to_string(quick.port());
     Visitor slow(quick.port(), 4096), other(quick.port());
     ASSERT_TRUE(slow.watch(name));  // and takes nothing of what follows
@@ -196,12 +199,53 @@ TEST_F(WatchServerTest, DropsWhoIsTooSlowAndServesTheOthers) {
 TEST_F(WatchServerTest, SaysWhyItCannotListen) {
     auto taken = options();
     taken.address.port = server.port();
-    WatchBoard another({0, 0, 8, 8}, 1);
-    EXPECT_THROW(WatchServer(taken, another), Error);
+    EXPECT_THROW(WatchServer(taken, stage()), Error);
+}
+
+TEST_F(WatchServerTest, ShowsOneRunAfterTheOtherToThoseWhoStay) {
+    Visitor visitor(server.port());
+    ASSERT_TRUE(visitor.watch(own()));
+    board.tell(R"({"t":1})");
+    ASSERT_TRUE(visitor.next_with("\"t\":1"));
+    const auto next = std::make_shared<WatchBoard>(Window{0, 0, 8, 8}, 1);
+    next->tell(R"({"t":2})");
+    std::atomic<int> asked{0};
+    server.show({R"({"hello":{"graph":"next.lua"}})", next, [&](const WatchCommand& command) {
+                     ++asked;
+                     command.answer("");
+                 }});
+    EXPECT_TRUE(visitor.next_with("next.lua"));
+    EXPECT_TRUE(visitor.next_with("\"t\":2"));
+    EXPECT_TRUE(next->wanted());
+    visitor.say(R"({"do":"write","token":"right"})");
+    EXPECT_TRUE(visitor.next_with("obeyed"));
+    EXPECT_EQ(asked, 1);
+    EXPECT_THAT(commands, IsEmpty());
+    server.tell(R"({"edited":{"event":"error"}})");
+    EXPECT_TRUE(visitor.next_with("edited"));
+}
+
+TEST_F(WatchServerTest, PassesEditsOnFromThoseWhoMay) {
+    auto editing = options();
+    std::mutex lines_mutex;
+    std::vector<std::string> lines;
+    editing.edit = [&](std::string line) {
+        const std::lock_guard lock(lines_mutex);
+        lines.push_back(std::move(line));
+    };
+    WatchServer session(editing, stage());
+    Visitor visitor(session.port());
+    ASSERT_TRUE(visitor.watch("127.0.0.1:" + std::to_string(session.port())));
+    visitor.say(R"({"do":"edit","edit":{"set":{"light.samples":3}},"token":"wrong"})");
+    EXPECT_TRUE(visitor.next_with("\"allowed\":false"));
+    visitor.say(R"({"do":"edit","edit":{"set":{"light.samples":3}},"token":"right"})");
+    EXPECT_TRUE(visitor.next_with("\"allowed\":true"));
+    const std::lock_guard lock(lines_mutex);
+    EXPECT_THAT(lines, ElementsAre(R"({"set":{"light.samples":3}})"));
 }
 
 TEST_F(WatchServerTest, HasNobodyWaitForItsEnd) {
-    auto ending = std::make_unique<WatchServer>(options(), board);
+    auto ending = std::make_unique<WatchServer>(options(), stage());
     Visitor visitor(ending->port());
     ASSERT_TRUE(visitor.watch("127.0.0.1:" + std::to_string(ending->port())));
     board.tell(R"({"outcome":"done"})");

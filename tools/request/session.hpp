@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 
 #include "tools/request/graph_edits.hpp"
@@ -15,7 +16,8 @@ struct Session {
     std::string graph;  // its file
     /// The run of the graph as it is now, edited. Called by one thread, while others are there. Throws UserError.
     std::function<RunRequest(const GraphEdits& edits)> request;
-    int edits = 0;                   // descriptor of the lines
+    std::optional<WatchAddress> watch;  // where a page is served; none: nowhere
+    int edits = 0;                      // descriptor of the lines
     std::ostream* events = nullptr;  // a line of JSON for each thing that happens; null: a sentence on standard error
 };
 

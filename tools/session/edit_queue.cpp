@@ -82,6 +82,13 @@ void EditQueue::wait() {
     came_.wait(lock, [this] { return something() || signals_.any; });
 }
 
+void EditQueue::add(std::string line) {
+    const std::lock_guard lock(news_mutex_);
+    news_.lines.push_back(std::move(line));
+    supersede();
+    came_.notify_one();
+}
+
 void EditQueue::supersede() {
     signals_.superseded = true;
     signals_.any = true;

@@ -30,6 +30,9 @@ public:
     /// A file that is written or replaced is an edit, from now on; all others no longer are.
     void watch(const std::set<std::string>& files);
 
+    /// A line that comes another way. Any thread.
+    void add(std::string line);
+
     struct News {
         std::vector<std::string> lines;
         std::set<std::string> files;  // that have changed, by their absolute names

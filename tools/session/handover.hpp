@@ -12,6 +12,7 @@
 #include "core/scene/scene.hpp"
 #include "tools/request/run_request.hpp"
 #include "tools/session/crew.hpp"
+#include "tools/watch/watch_server.hpp"
 
 namespace lightnet {
 
@@ -41,6 +42,8 @@ public:
 
     /// True for what nobody has said yet.
     bool is_new(const std::string& warning) { return said_.insert(warning).second; }
+    /// Where its runs are watched, one after the other; null: each has a page of its own, if any.
+    WatchServer* server = nullptr;
     /// What became of the last run: its picture was there already.
     bool was_there = false;
 

@@ -12,6 +12,7 @@
 #include "core/base/own_files.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
+#include "core/readers/statistics.hpp"
 #include "core/run/assembly/load_scene.hpp"
 #include "core/scene/camera_in.hpp"
 #include "tools/pictures/clean.hpp"
@@ -86,6 +87,9 @@ void Run::take_up_checkpoint(const LoadedScene& scene) {
     auto recipe = picture_recipe(job_, registry_, format_, request_.tuning.tile);
     const CameraData camera =
         scene.built ? scene.built->seen_from() : camera_in(scene.data, format_.width, format_.height);
+    if (watcher_ && request_.shown)
+        watcher_->look_from(
+            viewpoint_of(camera, scene.built ? scene.built->bounds() : statistics_of(scene.data).bounds));
     book_.describe(words_of(request_.graph, registry_, format_, recipe, data_of(scene), camera));
     book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint));
     if (request_.resume) book_.take_up_checkpoint();
@@ -212,12 +216,13 @@ bool Run::end_in_time() {
 void Run::open_to_watchers() {
     if (!request_.watch && !request_.viewer && request_.report.empty()) return;
     if (request_.watch) explainer_.emplace(request_, registry_, format_);
+    WatchServer* const server = handover_ ? handover_->server : nullptr;
     watcher_.emplace(Watcher::Options{request_.watch, request_.viewer, !request_.report.empty(), ask_to_stop,
-                                      explainer_ ? &*explainer_ : nullptr},
-                     WatchedRun{request_.graph, registry_, format_, request_.output});
+                                      explainer_ ? &*explainer_ : nullptr, server},
+                     WatchedRun{request_.graph, registry_, format_, request_.output, server != nullptr});
     book_.show_to(&*watcher_);
     // Whoever asks for it wants to know, however little else is said.
-    if (request_.watch) std::cerr << "watch it at " << watcher_->url() << std::endl;
+    if (request_.watch && !server) std::cerr << "watch it at " << watcher_->url() << std::endl;
 }
 
 int Run::perform() {

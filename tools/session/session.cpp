@@ -21,6 +21,7 @@
 #include "tools/session/run.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/pace.hpp"
+#include "tools/watch/watch_page.hpp"
 
 namespace lightnet {
 namespace {
@@ -36,15 +37,17 @@ public:
     bool sound() const { return !out_ || out_->good(); }
 
     void tell(const std::string& event, const std::string& words, std::map<std::string, JsonTree> members = {}) {
-        if (!out_) {
-            std::cerr << words << std::endl;
-            return;
-        }
         JsonTree line{{"event", event}, {"edit", edits_}};
         if (!id_.empty()) line["id"] = JsonTree(parse_json(id_));
         for (auto& [name, value] : members) line[name] = std::move(value);
-        *out_ << to_text(line) << std::endl;
+        if (server_) server_->tell(to_text({{"edited", line}}));
+        if (out_)
+            *out_ << to_text(line) << std::endl;
+        else
+            std::cerr << words << std::endl;
     }
+    /// Those who watch are told, too.
+    void show_to(WatchServer* server) { server_ = server; }
     void tell(const UserError& error) {
         JsonTree problems = JsonTree::list();
         for (const auto& [where, what] : error.problems())
@@ -57,6 +60,7 @@ public:
 
 private:
     std::ostream* out_;
+    WatchServer* server_ = nullptr;
     std::uint64_t edits_ = 0;
     std::string id_;
 };
@@ -72,6 +76,7 @@ public:
           events_(session.events) {}
 
     int perform() {
+        open_to_watchers();
         queue_.watch(files_);
         while (true) {
             const int code = render();
@@ -136,6 +141,17 @@ private:
         queue_.watch(files_);
     }
 
+    void open_to_watchers() {
+        if (!session_.watch) return;
+        WatchServer::Options options{*session_.watch, new_token(), watch_page()};
+        options.edit = [this](std::string line) { queue_.add(std::move(line)); };
+        server_.emplace(std::move(options), WatchStage{R"({"hello":null})", std::make_shared<WatchBoard>(Window{}, 1),
+                                                       [](const WatchCommand& command) { command.answer("not yet"); }});
+        handover_.server = &*server_;
+        events_.show_to(&*server_);
+        std::cerr << "watch it at " << server_->url() << std::endl;
+    }
+
     bool stopped() const { return queue_.signals().interrupted || queue_.signals().terminated; }
 
     void tell(const RunRequest& request, const PictureShown& shown) {
@@ -165,6 +181,7 @@ private:
     GraphEdits edits_;
     Handover handover_;
     EditQueue queue_;
+    std::optional<WatchServer> server_;  // before those whom it calls are gone
     Events events_;
     Clock::time_point edited_ = Clock::now();
     bool ends_ = false;  // with the picture at work

@@ -28,7 +28,6 @@ struct SessionOptions {
 // Options that belong to one picture.
 std::optional<std::string> mistaken_options(const RunningOptions& running) {
     const auto refuse = [](const std::string& option) { return option + " is for one picture: use lightnet run"; };
-    if (running.watch) return refuse("--watch");
     if (running.viewer || running.preview > 0) return refuse("--preview");
     if (running.resume) return refuse("--resume");
     if (!running.report.empty()) return refuse("--report");
@@ -73,6 +72,7 @@ int run_session(const SessionOptions& options, const Launcher& launcher) {
     const Hosts hosts = read_hosts(options.running.hosts);
     Session session;
     session.graph = options.graph.file;
+    session.watch = options.running.watch;
     session.edits = STDIN_FILENO;
     session.events = options.json ? &launcher.out : nullptr;
     session.request = [&](const GraphEdits& edits) { return request_of(options, launcher, reader, hosts, edits); };

@@ -41,6 +41,16 @@ std::vector<std::size_t> picture_of(std::size_t node, const Layers& layers, cons
 
 const char* name_of(Role role) { return role == Role::image ? "image" : role == Role::light ? "light" : "scene"; }
 
+// What a page can change: numbers, and what is on or off.
+JsonTree params_json(const Node& node) {
+    auto all = JsonTree::object();
+    for (const auto& [name, value] : node.params) {
+        if (const auto* number = std::get_if<double>(&value.data)) all[name] = *number;
+        if (const auto* flag = std::get_if<bool>(&value.data)) all[name] = *flag;
+    }
+    return all;
+}
+
 JsonTree nodes_json(const WatchedRun& run) {
     const auto layers = layers_of(run.graph, run.registry);
     auto all = JsonTree::list();
@@ -50,6 +60,8 @@ JsonTree nodes_json(const WatchedRun& run) {
         all.push_back({{"name", what.name},
                        {"kind", what.kind},
                        {"role", name_of(run.registry.find(what.kind)->role)},
+                       {"params", params_json(what)},
+                       {"line", what.where.line},
                        {"picture", picture_of(node, layers, run)}});
     }
     return all;
@@ -163,6 +175,7 @@ std::string hello_json(const WatchedRun& run) {
                           {"colours", colours},
                           {"levels", std::vector(levels.begin(), levels.end())},
                           {"nodes", nodes_json(run)},
+                          {"edited", run.edited},
                           {"edges", edges_json(run)}}}});
 }
 
@@ -171,6 +184,11 @@ std::string state_json(const WatchedState& state, const Graph& graph) {
                   {"phase", state.phase},
                   {"done", state.done},
                   {"outcome", state.outcome}};
+    if (const auto& seen = state.viewpoint)
+        json["camera"] = {{"from", {seen->from.x, seen->from.y, seen->from.z}},
+                          {"to", {seen->to.x, seen->to.y, seen->to.z}},
+                          {"up", {seen->up.x, seen->up.y, seen->up.z}},
+                          {"fov", seen->fov}};
     if (state.left) json["left"] = std::round(*state.left * 10) / 10;
     json["hosts"] = hosts_json(state.hosts);
     add_figures(json, state, graph);

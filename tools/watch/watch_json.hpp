@@ -9,6 +9,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/run/assembly/activity.hpp"
+#include "tools/watch/viewpoint.hpp"
 #include "transport/launcher/cluster.hpp"
 
 namespace lightnet {
@@ -19,6 +20,7 @@ struct WatchedRun {
     const Registry& registry;
     const FilmFormat& format;
     std::string output;
+    bool edited = false;  // by those who watch, too
 };
 
 /// What does.
@@ -30,7 +32,8 @@ struct WatchedState {
     std::vector<HostState> hosts;
     Doings doing;
     std::vector<Tile> in_flight;
-    std::string outcome;  // "": it goes on
+    std::optional<Viewpoint> viewpoint{};  // none: not known yet
+    std::string outcome;                   // "": it goes on
 };
 
 /// {"hello": {…}}

@@ -24,10 +24,21 @@ constexpr const char* page_policy =
 // What all pages have in common.
 struct WatchSite {
     WatchServer::Options options;
-    WatchBoard& board;
+    std::shared_ptr<const WatchStage> shown;
     std::atomic<std::uint16_t> port{0};  // at which it listens
     std::string machine = machine_name();
     std::atomic<std::size_t> watchers{0};
+    std::mutex stage_mutex{};  // of `shown`, while those that it names are called, too; and of the next
+    std::deque<std::pair<std::uint64_t, std::string>> told{};  // the last texts for all, numbered
+
+    std::shared_ptr<const WatchStage> stage() {
+        const std::lock_guard lock(stage_mutex);
+        return shown;
+    }
+    std::uint64_t last_told() {
+        const std::lock_guard lock(stage_mutex);
+        return told.empty() ? 0 : told.back().first;
+    }
 };
 
 // What comes for a page from other threads, whether it is still there or not.
@@ -44,7 +55,8 @@ Json understood(const std::string& text) try { return parse_json(text); } catch 
 // One page that watches.
 class WatchingPage final : public HttpGuest {
 public:
-    WatchingPage(WatchSite& site, bool words_only) : site_(site), words_only_(words_only), texts_{site.options.hello} {
+    WatchingPage(WatchSite& site, bool words_only)
+        : site_(site), words_only_(words_only), stage_(site.stage()), told_(site.last_told()), texts_{stage_->hello} {
         ++site_.watchers;
     }
     ~WatchingPage() override { --site_.watchers; }
@@ -53,6 +65,7 @@ public:
 
     std::optional<Message> next() override {
         if (texts_.empty()) look_at_letters();
+        if (texts_.empty()) look_at_stage();
         if (texts_.empty()) look_at_board();
         if (!texts_.empty()) {
             Message message{std::move(texts_.front())};
@@ -60,7 +73,7 @@ public:
             return message;
         }
         if (words_only_) return std::nullopt;
-        auto pixels = site_.board.pixels_since(seen_, most_pixels);
+        auto pixels = stage_->board->pixels_since(seen_, most_pixels);
         if (pixels.empty()) return std::nullopt;
         return Message{std::move(pixels), false};
     }
@@ -72,17 +85,20 @@ public:
             return found ? *found : std::string();
         };
         const auto what = word("do");
-        const bool known = what == "check" || what == "end" || what == "write" || what == "drain" || what == "explain";
+        const bool known = what == "check" || what == "end" || what == "write" || what == "drain" ||
+                           what == "explain" || what == "edit";
         if (!known || texts_.size() > most_unsaid) return false;
         const bool allowed = same_token(word("token"), site_.options.token);
         using What = WatchCommand::What;
         if (allowed && what == "explain")
             explain(said);
+        else if (allowed && what == "edit")
+            edit(said);
         else if (allowed && what != "check")
-            site_.options.command({what == "end"     ? What::end
-                                   : what == "write" ? What::write
-                                                     : What::drain,
-                                   word("host"), told_later(what)});
+            command({what == "end"     ? What::end
+                     : what == "write" ? What::write
+                                       : What::drain,
+                     word("host"), told_later(what)});
         texts_.push_back(sorted_text({{"done", what}, {"allowed", allowed}}));
         return true;
     }
@@ -94,6 +110,24 @@ private:
             box->letters.push_back(sorted_text({{"obeyed", what}, {"why_not", why_not}}));
         };
     }
+    void command(WatchCommand wanted) {
+        const std::lock_guard lock(site_.stage_mutex);
+        site_.shown->command(std::move(wanted));
+    }
+    void edit(const Json& said) {
+        if (site_.options.edit && said.has("edit")) site_.options.edit(to_text(JsonTree(said.at("edit"))));
+    }
+    // Another run is shown, or something was told to all.
+    void look_at_stage() {
+        const std::lock_guard lock(site_.stage_mutex);
+        for (const auto& [number, text] : site_.told)
+            if (number > told_) texts_.push_back(text), told_ = number;
+        if (site_.shown == stage_) return;
+        stage_ = site_.shown;
+        stage_->board->want();
+        seen_ = {};
+        texts_.push_back(stage_->hello);
+    }
     void look_at_letters() {
         const std::lock_guard lock(letterbox_->letters_mutex);
         std::swap(texts_, letterbox_->letters);
@@ -103,38 +137,42 @@ private:
             const auto* found = said.has(name) ? std::get_if<std::uint64_t>(&said.at(name).data) : nullptr;
             return found && *found <= 0xffffffffu ? static_cast<std::uint32_t>(*found) : usual;
         };
-        if (!site_.options.explain) return;
+        const std::lock_guard stage_lock(site_.stage_mutex);
+        if (!site_.shown->explain) return;
         const PixelWish wish{number("x", ~0u), number("y", ~0u), number("samples", PixelWish{}.samples)};
-        site_.options.explain(wish, [box = letterbox_](std::string text) {
+        site_.shown->explain(wish, [box = letterbox_](std::string text) {
             const std::lock_guard lock(box->letters_mutex);
             box->letters.push_back(std::move(text));
         });
     }
     void look_at_board() {
-        if (const auto lines = site_.board.lines_since(seen_); !lines.empty())
+        if (const auto lines = stage_->board->lines_since(seen_); !lines.empty())
             texts_.push_back(sorted_text({{"log", lines}}));
-        if (const auto state = site_.board.state_since(seen_); !state.empty())
+        if (const auto state = stage_->board->state_since(seen_); !state.empty())
             texts_.push_back("{\"state\":" + state + "}");
     }
 
     WatchSite& site_;
     const bool words_only_;
+    std::shared_ptr<const WatchStage> stage_;
+    std::uint64_t told_;  // number of the last text for all
     WatchBoard::Seen seen_;
     std::deque<std::string> texts_;
     std::shared_ptr<Letterbox> letterbox_ = std::make_shared<Letterbox>();
 };
 
-std::string state_of(const WatchSite& site) {
-    site.board.want();
-    const auto now = site.board.state();
-    const auto& hello = site.options.hello;  // {"hello":{…}}
+std::string state_of(WatchSite& site) {
+    const auto stage = site.stage();
+    stage->board->want();
+    const auto now = stage->board->state();
+    const auto& hello = stage->hello;  // {"hello":{…}}
     return hello.substr(0, hello.rfind('}')) + ",\"state\":" + (now.empty() ? "null" : now) + "}\n";
 }
 
 HttpAnswer live(WatchSite& site, const HttpRequest& request) {
     if (!request.upgrade) return refusal(426, std::string(request.path) + " is a WebSocket");
     if (site.watchers >= site.options.most_watchers) return refusal(503, "too many watch already");
-    site.board.want();
+    site.stage()->board->want();
     HttpAnswer answer;
     answer.guest = std::make_shared<WatchingPage>(site, request.path == "/words");
     return answer;
@@ -170,14 +208,28 @@ struct WatchServer::Parts {
     WatchSite site;  // outlives the server
     HttpServer server;
 
-    Parts(Options given, WatchBoard& board) : site{std::move(given), board}, server(server_options(site)) {
+    Parts(Options given, WatchStage stage)
+        : site{std::move(given), std::make_shared<const WatchStage>(std::move(stage))}, server(server_options(site)) {
         site.port = server.port();
     }
 };
 
-WatchServer::WatchServer(Options options, WatchBoard& board)
-    : parts_(std::make_unique<Parts>(std::move(options), board)) {}
+WatchServer::WatchServer(Options options, WatchStage stage)
+    : parts_(std::make_unique<Parts>(std::move(options), std::move(stage))) {}
 WatchServer::~WatchServer() = default;
+
+void WatchServer::show(WatchStage stage) {
+    auto next = std::make_shared<const WatchStage>(std::move(stage));
+    const std::lock_guard lock(parts_->site.stage_mutex);
+    parts_->site.shown = std::move(next);
+}
+
+void WatchServer::tell(const std::string& text) {
+    auto& site = parts_->site;
+    const std::lock_guard lock(site.stage_mutex);
+    site.told.emplace_back(site.told.empty() ? 1 : site.told.back().first + 1, text);
+    if (site.told.size() > most_unsaid) site.told.pop_front();
+}
 
 std::uint16_t WatchServer::port() const { return parts_->server.port(); }
 std::string WatchServer::url() const {

@@ -36,14 +36,14 @@ Watcher::Watcher(Options options, const WatchedRun& run)
       graph_(run.graph),
       output_(run.output),
       hello_(hello_json(run)),
-      board_(run.format.work(), run.format.views().size()),
+      board_(std::make_shared<WatchBoard>(run.format.work(), run.format.views().size())),
       too_large_(run.format.work().pixels() * run.format.views().size() * sizeof(Rgb) > most_live_bytes),
       pixel_pace_(pixel_period, begun_),
       state_pace_(state_period, begun_),
       history_(begun_) {
     if (const auto& viewer = options_.viewer)
         viewer_ = std::make_unique<TevPreview>(TevPreview::Options{viewer->host, viewer->port, run.output, run.format},
-                                               board_);
+                                               *board_);
     if (too_large_ && (options_.address || viewer_)) say("the picture is too large to be shown while it grows");
     if (!options_.address) return;
     const auto take = [this](WatchCommand command) {
@@ -60,18 +60,29 @@ Watcher::Watcher(Options options, const WatchedRun& run)
         explain = [explainer](const PixelWish& wish, LiveExplainer::Reply reply) {
             explainer->explain(wish, std::move(reply));
         };
-    server_ = std::make_unique<WatchServer>(
-        WatchServer::Options{*options_.address, new_token(), watch_page(), hello_, take, explain}, board_);
+    WatchStage stage{hello_, board_, take, explain};
+    server_ = options_.server;
+    if (server_) {
+        server_->show(std::move(stage));
+        return;
+    }
+    own_server_ = std::make_unique<WatchServer>(WatchServer::Options{*options_.address, new_token(), watch_page()},
+                                                std::move(stage));
+    server_ = own_server_.get();
 }
 
-Watcher::~Watcher() = default;
+// The last thing that it has shown stays on a server of others.
+Watcher::~Watcher() {
+    if (!server_ || own_server_) return;
+    server_->show({hello_, board_, [](const WatchCommand& command) { command.answer("the picture is finished"); }});
+}
 
 std::string Watcher::url() const { return server_ ? server_->url() : std::string(); }
 
 void Watcher::say(const std::string& text) {
     auto line = fmt::format("{:.1f}\t{}", std::chrono::duration<double>(Clock::now() - begun_).count(), text);
     if (options_.report && lines_.size() < most_reported_lines) lines_.push_back(line);
-    board_.say(std::move(line));
+    board_->say(std::move(line));
 }
 
 void Watcher::part_from(const Hosts& hosts) {
@@ -106,14 +117,14 @@ void Watcher::show_pixels(const Film& film, std::chrono::duration<double> most) 
     const auto end = Clock::now() + most;
     while (!changed_.empty() && Clock::now() < end) {
         const Tile area = changed_.front();
-        if (!board_.show(area, film.so_far(area))) return;
+        if (!board_->show(area, film.so_far(area))) return;
         changed_.pop_front();
     }
 }
 
 void Watcher::look(const Film& film) {
     const auto now = Clock::now();
-    if (!board_.wanted() || too_large_ || !pixel_pace_.due(now)) return;
+    if (!board_->wanted() || too_large_ || !pixel_pace_.due(now)) return;
     show_pixels(film, most_pixel_time);
     pixel_pace_.put_off(now);
 }
@@ -140,7 +151,7 @@ void Watcher::phase(const std::string& name) {
 bool Watcher::tell() {
     state_.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
     last_state_ = state_json(state_, graph_);
-    return board_.tell(last_state_);
+    return board_->tell(last_state_);
 }
 
 void Watcher::look_at_hosts(std::vector<HostState> hosts, Clock::time_point now) {
@@ -154,7 +165,7 @@ std::vector<WatchCommand> Watcher::commands() {
 }
 
 void Watcher::finish(const Film& film, const std::string& outcome) {
-    if (!wanted()) return;
+    if (!wanted() && !picture_wanted()) return;
     for (const auto& command : commands()) command.answer("the run is over");
     state_.outcome = outcome;
     state_.in_flight.clear();
@@ -162,7 +173,7 @@ void Watcher::finish(const Film& film, const std::string& outcome) {
     bool told = false;
     const auto end = Clock::now() + 300ms;  // the board is never taken for long
     do {
-        if (board_.wanted() && !too_large_) show_pixels(film, 1s);
+        if (picture_wanted() && !too_large_) show_pixels(film, 1s);
         told = tell() || told;
         std::this_thread::sleep_for(1ms);
     } while ((!told || !changed_.empty()) && Clock::now() < end);

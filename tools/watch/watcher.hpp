@@ -35,6 +35,7 @@ public:
         bool report = false;                  // keeps what a report shows of the past
         std::function<void()> end = {};       // the run is to end; called by another thread
         LiveExplainer* explainer = nullptr;   // of pixels, for those who watch; outlives the watcher
+        WatchServer* server = nullptr;        // that shows one run after the other; none: this run has its own
     };
     /// All of `run` outlives it. Throws Error when the address can't be listened at, or the viewer's name is nobody's.
     Watcher(Options options, const WatchedRun& run);
@@ -45,8 +46,12 @@ public:
     /// For the user, with the token; "": nobody can watch.
     std::string url() const;
     /// Somebody watches, has, or will read a report.
-    bool wanted() const { return options_.report || board_.wanted(); }
+    bool wanted() const { return options_.report || board_->wanted(); }
+    /// Its last picture is: somebody watches it, or may come to it later.
+    bool picture_wanted() const { return options_.server || board_->wanted(); }
 
+    /// From where the picture is seen.
+    void look_from(const Viewpoint& viewpoint) { state_.viewpoint = viewpoint; }
     void phase(const std::string& name);
     /// Places of this process render with that; a pixel of it can be explained without reading the scene again.
     void share(const std::shared_ptr<const Network>& network, const std::string& made_from, float scale) {
@@ -93,7 +98,7 @@ private:
     WatchedState state_;
     PlacesAtWork work_;
     const Clock::time_point begun_ = Clock::now();
-    WatchBoard board_;
+    std::shared_ptr<WatchBoard> board_;
     bool too_large_ = false, began_to_show_ = false;
     std::deque<Tile> changed_;  // areas
     Pace pixel_pace_, state_pace_;
@@ -102,7 +107,8 @@ private:
     std::mutex commands_mutex_;
     std::vector<WatchCommand> commands_;
     std::unique_ptr<TevPreview> viewer_;
-    std::unique_ptr<WatchServer> server_;  // last: its thread, like the viewer's, uses the rest
+    std::unique_ptr<WatchServer> own_server_;  // last: its thread, like the viewer's, uses the rest
+    WatchServer* server_ = nullptr;            // that, or another; null: nobody can watch
 };
 
 }  // namespace lightnet

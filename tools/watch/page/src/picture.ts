@@ -17,6 +17,8 @@ export class Picture {
     readonly layers: number[];
     readonly facts: boolean[];
     data: Float32Array; // pixel by pixel, colour by colour
+    kept: Float32Array | null = null; // an earlier one, to be compared with
+    wipe = 0; // the part of the width, from the left, that shows the one that was kept
     private levels: Float32Array;
     private first = new Uint8Array(4097); // the level at the beginning of each part of 0 … 1
 
@@ -55,6 +57,10 @@ export class Picture {
         return rectangles;
     }
 
+    keep() {
+        this.kept = this.data.slice();
+    }
+
     level(value: number): number {
         if (!(value > 0)) return 0;
         if (value >= 1) return 255;
@@ -65,7 +71,8 @@ export class Picture {
 
     /// Linear, before exposure.
     at(pixel: number, view: View): Rgb {
-        const { data, colours } = this;
+        const { colours } = this;
+        const data = this.kept && pixel % this.width < this.wipe * this.width ? this.kept : this.data;
         const sum: Rgb = [0, 0, 0];
         const parts = view.colours ?? this.layers;
         for (let c = 0; c < 3; ++c) {

@@ -1,6 +1,7 @@
 // The run as this page knows it: from the launcher, or frozen in a report.
 import { Picture, thaw } from "./picture";
-import type { Explained, Frozen, Hello, State } from "./types";
+import { rounded, type Camera } from "./camera";
+import type { Edited, Explained, Frozen, Hello, State } from "./types";
 
 const minute = 60;
 
@@ -12,15 +13,23 @@ class Run {
     facts = $state.raw<[string, string][]>([]); // of a report
     link = $state<"connecting" | "open" | "lost" | "frozen">("connecting");
     allowed = $state(false); // to do something
+    camera = $state.raw<Camera | null>(null); // of a session
+    changed = $state.raw<Record<string, number | boolean>>({}); // parameters that this page has set
+    edited = $state.raw<Edited | null>(null); // the last that the session has told
     explained = $state.raw<Explained | null>(null); // the pixel that was clicked at; without words: they are on the way
     frozen = $state(false);
     step = 1; // of a report: pixels of the picture along a side of one here
-    picture: Picture | null = null;
+    picture = $state.raw<Picture | null>(null);
     // Where the picture has changed; who draws it takes them.
     painters = new Set<(rectangles: number[][]) => void>();
 
     private socket: WebSocket | null = null;
     private token = location.hash.slice(1);
+    private wish: Camera | null | undefined; // to be said, when the picture before is there
+    private own_camera = false; // this page has said it
+    private waits = 0; // ms, since when; 0: it doesn't
+    /// The session is over, or the run: nothing will come any more.
+    over = $derived(this.frozen || this.link !== "open" || (this.hello?.edited ? this.edited?.event === "end" : !!this.state?.outcome));
 
     begin() {
         const text = document.getElementById("frozen")?.textContent;
@@ -51,17 +60,19 @@ class Run {
         socket.onmessage = ({ data }) => (typeof data === "string" ? this.hear(JSON.parse(data)) : this.paint(data));
         socket.onclose = () => {
             if (this.link === "open") this.link = "lost";
-            if (!this.state?.outcome) setTimeout(() => this.connect(), 1000);
+            if (!this.state?.outcome || this.hello?.edited) setTimeout(() => this.connect(), 1000);
         };
         this.socket = socket;
     }
 
     private hear(said: {
-        hello?: Hello; state?: State; log?: string[]; done?: string; allowed?: boolean; explained?: Explained;
+        hello?: Hello; state?: State; log?: string[]; done?: string; allowed?: boolean; explained?: Explained; edited?: Edited;
     }) {
+        if (said.edited) this.hear_of_edit(said.edited);
         if (said.hello) {
-            const same = JSON.stringify(said.hello) === JSON.stringify(this.hello);
-            if (!same) this.picture = new Picture(said.hello);
+            // Another picture of the same form is painted over.
+            const form = (hello: Hello | null) => JSON.stringify([hello?.picture, hello?.colours.map(({ name }) => name)]);
+            if (form(said.hello) !== form(this.hello)) this.picture = new Picture(said.hello);
             this.hello = said.hello;
             this.log = [];
         }
@@ -70,6 +81,7 @@ class Run {
             if (this.state && now.t < this.state.t) this.history = [];
             this.history = [...this.history.filter((one) => one.t > now.t - minute), now];
             this.state = now;
+            if (now.camera && !this.own_camera) this.camera = rounded(now.camera);
         }
         if (said.log) this.log = [...this.log, ...said.log].slice(-1000);
         if (said.allowed !== undefined) this.allowed = said.allowed;
@@ -89,7 +101,37 @@ class Run {
         this.say({ do: "explain", x, y, samples });
     }
 
-    say(what: { do: string; host?: string; x?: number; y?: number; samples?: number }) {
+    /// Sees it from there; null: from where the graph says. One edit after the other, the last of which counts.
+    look(camera: Camera | null) {
+        this.own_camera = camera !== null;
+        if (camera) this.camera = rounded(camera);
+        this.wish = camera && this.camera;
+        this.say_wish();
+    }
+    private say_wish() {
+        if (this.wish === undefined || (this.waits && performance.now() - this.waits < 2000)) return;
+        const { wish } = this;
+        this.wish = undefined;
+        this.waits = performance.now();
+        const camera = wish && (wish.fov > 0 ? wish : { from: wish.from, to: wish.to, up: wish.up });
+        this.say({ do: "edit", edit: { camera } });
+    }
+    private hear_of_edit(edited: Edited) {
+        this.edited = edited;
+        this.waits = 0;
+        this.say_wish();
+    }
+    set(path: string, value: number | boolean) {
+        this.changed = { ...this.changed, [path]: value };
+        this.say({ do: "edit", edit: { set: { [path]: value } } });
+    }
+    take_back() {
+        const none = Object.fromEntries(Object.keys(this.changed).map((path) => [path, null]));
+        this.changed = {};
+        this.say({ do: "edit", edit: { set: none } });
+    }
+
+    say(what: { do: string; host?: string; x?: number; y?: number; samples?: number; edit?: object }) {
         if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify({ ...what, token: this.token }));
     }
 

@@ -1,4 +1,5 @@
 // What the launcher says: tools/watch/watch_json.cpp is the other end.
+import type { Camera } from "./camera";
 
 export interface Colour {
     name: string;
@@ -11,6 +12,8 @@ export interface GraphNode {
     name: string;
     kind: string;
     role: "image" | "light" | "scene";
+    params: Record<string, number | boolean>;
+    line: number; // of the graph's file
     picture: number[]; // the colours that add up to its picture
 }
 
@@ -23,6 +26,7 @@ export interface Hello {
     levels: number[]; // what a channel must be at least for each of 1 … 255
     nodes: GraphNode[];
     edges: [number, number][]; // who asks whom
+    edited: boolean; // of a session, which goes on when a picture is finished
 }
 
 /// Looks at which it was busy, asking, waiting, idle.
@@ -51,6 +55,17 @@ export interface State {
     edges: number[][]; // questions, bundles, questions sent, bytes
     tiles: [number, number, number, number][];
     doing: Record<string, [string, number, number]>;
+    camera?: Camera;
+}
+
+/// What a session tells of an edit.
+export interface Edited {
+    event: "picture" | "error" | "end";
+    edit: number;
+    samples?: number;
+    finished?: boolean;
+    seconds?: number;
+    problems?: { file: string; line: number; what: string }[];
 }
 
 /// How a pixel came about, or why that can't be told.
