@@ -53,7 +53,7 @@ Kind cryptomatte_kind() {
         .params = {{.name = "of",
                     .type = ParamType::text,
                     .help = "what is told apart, by the names that the scene's file gives",
-                    .choices = {"object", "material", "lamp"}},
+                    .choices = {"object", "mesh", "material", "lamp"}},
                    {.name = "ranks",
                     .type = ParamType::integer,
                     .help = "how many are told apart in one pixel: those that cover most of it",

@@ -34,10 +34,11 @@ public:
         const auto& object = here.text("object");
         for (const auto& shape : data.shapes) {
             made_of_.push_back(material.empty() || goes_by(data.materials[shape.material].name, material));
-            called_.push_back(object.empty() || goes_by(shape.name, object));
+            called_.push_back(object.empty() || goes_by(shape.name, object) || goes_by(shape.node_name, object));
         }
         for (const auto& instance : data.instances)
-            of_object_.push_back(goes_by(data.objects[instance.object].name, object));
+            of_object_.push_back(goes_by(data.objects[instance.object].name, object) ||
+                                 goes_by(instance.node_name, object));
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -91,9 +92,10 @@ Names materials_of(const SceneData& scene) {
 
 Names objects_of(const SceneData& scene) {
     Names names;
-    for (const auto& shape : scene.shapes) names.insert(shape.name);
+    for (const auto& shape : scene.shapes) names.insert({shape.name, shape.node_name});
     for (const auto& instance : scene.instances)
-        if (instance.object < scene.objects.size()) names.insert(scene.objects[instance.object].name);
+        if (instance.object < scene.objects.size())
+            names.insert({scene.objects[instance.object].name, instance.node_name});
     return names;
 }
 

@@ -168,7 +168,7 @@ class Combine(Node):
 class Cryptomatte(Node):
     """no light: which objects, materials or lamps each pixel shows, and how much of it they cover.
 
-    of: text, "object" | "material" | "lamp"
+    of: text, "object" | "mesh" | "material" | "lamp"
         what is told apart, by the names that the scene's file gives
     ranks: integer, default 6.0, 2.0 … 32.0
         how many are told apart in one pixel: those that cover most of it
@@ -177,7 +177,7 @@ class Cryptomatte(Node):
     def __init__(
         self,
         *inputs: Node,
-        of: Literal["object", "material", "lamp"] | None = ...,
+        of: Literal["object", "mesh", "material", "lamp"] | None = ...,
         ranks: int | None = ...,
         name: str | None = ...,
     ) -> None: ...

@@ -102,7 +102,7 @@ TEST(Select, KnowsInstancesByTheirObjects) {
     data.objects = {{"lamp", {0}}, {"vase", {0}}};
     Matrix far;
     far.m[0][3] = 3;
-    data.instances = {{0, {}}, {1, far}, {0, far * far}};
+    data.instances = {{0, {}}, {1, far, "antique"}, {0, far * far}};
     const Scene scene(std::move(data));
     Rig rig(scene);
     rig.add("AmbientOcclusion", "openness");
@@ -112,6 +112,10 @@ TEST(Select, KnowsInstancesByTheirObjects) {
     std::vector<Rgb> answers(3);
     vases.light(questions, answers);
     EXPECT_EQ(answers, (std::vector<Rgb>{{}, {1, 1, 1}, {}}));
+    const auto& antiques = rig.add("Select", "other", {"openness"}, {{"object", Value{"antique"}}});
+    answers.assign(3, {});
+    antiques.light(questions, answers);
+    EXPECT_EQ(answers, (std::vector<Rgb>{{}, {1, 1, 1}, {}})) << "by the name of what stands there";
 }
 
 TEST_F(Restrictions, SelectAsksInsideABox) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/scene/data/surface_names.hpp"
 #include "core/scene/lamps/environment.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/light_profile_text.hpp"
@@ -12,6 +13,7 @@
 namespace lightnet::test::gltf_reader_test {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -96,6 +98,24 @@ TEST(Gltf, ChainsTheTransformsOfNodes) {
     EXPECT_NEAR(mesh_of(scene).positions[1].z, 5, 1e-5f);
     const auto matrix = read_gltf(with_triangle(R"("nodes":[{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,7,8,9,1]}],)"));
     EXPECT_EQ(mesh_of(matrix).positions[0], (Vec3{7, 8, 9}));  // without "scenes" all roots stand
+}
+
+// The mesh is "chair", two nodes stand for it; so artists know them, and so do mattes.
+TEST(Gltf, CallsWhatStandsByItsNodeAndWhatItIsMadeOfByItsMesh) {
+    const auto named = [](const std::string& nodes) {
+        auto text = with_triangle(nodes);
+        const std::string meshes = R"("meshes":[{)";
+        return read_gltf(text.insert(text.find(meshes) + meshes.size(), R"("name":"chair",)"));
+    };
+    const auto two =
+        named(R"("nodes":[{"mesh":0,"name":"left"},{"mesh":0,"name":"right"}],"scenes":[{"nodes":[0,1]}],)");
+    EXPECT_THAT(surface_names(two, NamedBy::object).of_instance, ElementsAre("left", "right"));
+    EXPECT_THAT(surface_names(two, NamedBy::mesh).of_instance, ElementsAre("chair", "chair"));
+    const auto one = named(R"("nodes":[{"mesh":0,"name":"throne"}],"scenes":[{"nodes":[0]}],)");
+    EXPECT_THAT(surface_names(one, NamedBy::object).of_shape, ElementsAre("throne"));
+    EXPECT_THAT(surface_names(one, NamedBy::mesh).of_shape, ElementsAre("chair"));
+    EXPECT_THAT(surface_names(named(one_node), NamedBy::object).of_shape, ElementsAre("chair"))
+        << "a node without a name";
 }
 
 TEST(Gltf, MakesInstancesOfMeshesThatStandTwice) {

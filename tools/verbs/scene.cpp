@@ -74,8 +74,9 @@ void print_names(const SceneData& scene, std::ostream& out) {
     }
     std::set<std::string> materials, objects;
     for (const auto& shape : scene.shapes)
-        materials.insert(scene.materials[shape.material].name), objects.insert(shape.name);
+        materials.insert(scene.materials[shape.material].name), objects.insert({shape.name, shape.node_name});
     for (const auto& object : scene.objects) objects.insert(object.name);
+    for (const auto& instance : scene.instances) objects.insert(instance.node_name);
     for (const auto& [what, names] : {std::pair("material", &materials), std::pair("object", &objects)})
         for (const auto& name : *names)
             if (!name.empty()) line(out, what, name);

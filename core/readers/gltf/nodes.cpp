@@ -62,24 +62,28 @@ public:
     void build() {
         const auto standing = all_nodes();
         const std::size_t meshes = document_.root()["meshes"].size();
-        std::map<Pose, std::vector<Matrix>> places;
-        std::map<Pose, std::string> names;  // of the first node that has the mesh
+        std::map<Pose, std::vector<Place>> places;
         for (const auto& [node, to_world, visible] : standing) {
             if (assets_.report().full()) return;
             if (node["mesh"])
                 if (const auto mesh = node["mesh"].index(meshes); mesh && visible) {
                     const Pose pose = pose_of(node, *mesh);
                     put(node, to_world, pose, places[pose]);
-                    names.try_emplace(pose, node["name"].text(""));
                 }
             if (node["camera"]) camera(node["camera"], to_world, node["name"].text(""));
             if (visible) lights_.add(node, to_world);
         }
         for (const auto& [pose, where] : places)
-            if (!assets_.report().full()) add(pose, where, names[pose]);
+            if (!assets_.report().full()) add(pose, where);
     }
 
 private:
+    /// Where a mesh stands, and what its node is called.
+    struct Place {
+        Matrix to_world;
+        std::string name;
+    };
+
     /// Every node of the scene, parents before children.
     std::vector<Standing> all_nodes() {
         std::vector<Standing> result;
@@ -137,15 +141,15 @@ private:
 
     /// Where a node's mesh stands: once, or as often as EXT_mesh_gpu_instancing says. What hangs on a skin stands where
     /// its joints do.
-    void put(const At& node, const Matrix& to_world, const Pose& pose, std::vector<Matrix>& places) {
+    void put(const At& node, const Matrix& to_world, const Pose& pose, std::vector<Place>& places) {
         if (pose.skin) {
-            places.resize(1);
+            if (places.empty()) places.push_back({{}, node["name"].text("")});
             return;
         }
         const At many = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
         const auto place = [&](const Matrix& t) {
             if (!invertible(t)) return node.warn("meshes without a size are left out");
-            places.push_back(t);
+            places.push_back({t, node["name"].text("")});
         };
         if (!many) return place(to_world);
         const auto list = [&](const char* name) { return many[name] ? document_.values(many[name]) : std::nullopt; };
@@ -167,7 +171,7 @@ private:
 
     /// A mesh at all its places: one object with instances, but lamps and what stands once in the world itself. It
     /// goes by its own name, or by that of its first node.
-    void add(const Pose& pose, const std::vector<Matrix>& places, const std::string& node) {
+    void add(const Pose& pose, const std::vector<Place>& places) {
         const At mesh = document_.root()["meshes"][pose.mesh];
         std::optional<Skin> skin;
         if (pose.skin) {
@@ -176,38 +180,39 @@ private:
             if (!skin) return;
         }
         Object object;
-        object.name = mesh["name"].text(node);
+        object.name = mesh["name"].text(places.empty() ? "" : places.front().name);
         for (auto& primitive : read_mesh(mesh, {pose.weights, skin ? &*skin : nullptr}, document_, materials_)) {
             if (places.size() > 1 && !primitive.emission) {
-                object.shapes.push_back(shape(std::move(primitive), object.name));
+                object.shapes.push_back(shape(std::move(primitive), object.name, ""));
                 continue;
             }
-            for (const Matrix& place : places) bake(primitive, place, mesh, object.name);
+            for (const Place& place : places) bake(primitive, place, mesh, object.name);
         }
         if (object.shapes.empty()) return;
         auto& scene = assets_.scene();
         scene.objects.push_back(std::move(object));
-        for (const Matrix& place : places) {
+        for (const auto& [place, name] : places) {
             if (const std::string fault = lightnet::Placement::fault(place); !fault.empty()) return mesh.error(fault);
-            scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size() - 1), place});
+            scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size() - 1), place, name});
         }
     }
 
-    std::uint32_t shape(Primitive primitive, const std::string& name) {
+    std::uint32_t shape(Primitive primitive, const std::string& name, const std::string& node) {
         auto& shapes = assets_.scene().shapes;
         shapes.push_back(
-            {std::move(primitive.mesh), primitive.material, primitive.emission, {document_.path(), 0}, name});
+            {std::move(primitive.mesh), primitive.material, primitive.emission, {document_.path(), 0}, name, {}, node});
         return static_cast<std::uint32_t>(shapes.size() - 1);
     }
 
-    void bake(const Primitive& primitive, const Matrix& place, const At& mesh, const std::string& name) {
+    void bake(const Primitive& primitive, const Place& where, const At& mesh, const std::string& name) {
+        const Matrix& place = where.to_world;
         constexpr std::uint64_t most_triangles = std::uint64_t{1} << 26;
         baked_ += primitive.mesh.triangles.size();
         if (baked_ > most_triangles) return mesh.error("is a lamp too often: too many triangles");
         Primitive copy = primitive;
         if (swaps_handedness(place)) flip_order(copy.mesh);
         if (!transform(copy.mesh, place)) return mesh.error("has a vertex that is not finite in the scene");
-        shape(std::move(copy), name);
+        shape(std::move(copy), name, where.name);
     }
 
     /// So that a mirrored mesh keeps its outside, as glTF asks.

@@ -58,9 +58,10 @@ struct Shape {
     SourceLine where;
     std::string name{};                  // as in the file, or that of its own file; may be empty
     std::optional<MediumSides> media{};  // none: it parts no media
+    std::string node_name{};             // of what stands there, where a file names that apart from its mesh; else ""
 };
 void visit_members(Is<Shape> auto& shape, const auto& visit) {
-    auto& [geometry, material, emission, where, name, media] = shape;
+    auto& [geometry, material, emission, where, name, media, node_name] = shape;
     visit(geometry, material, emission, media);
 }
 
@@ -77,9 +78,10 @@ void visit_members(Is<Object> auto& object, const auto& visit) {
 struct Instance {
     std::uint32_t object = 0;  // index into SceneData::objects
     Matrix to_world{};         // from the object's space, in which its shapes are given: affine, not singular
+    std::string node_name{};   // as of a shape
 };
 void visit_members(Is<Instance> auto& instance, const auto& visit) {
-    auto& [object, to_world] = instance;
+    auto& [object, to_world, node_name] = instance;
     visit(object, to_world);
 }
 

@@ -19,19 +19,28 @@ SurfaceNames surface_names(const SceneData& scene, NamedBy by) {
     if (by == NamedBy::lamp) names.of_shape = lamp_names_of_shapes(scene);
     for (const auto& shape : scene.shapes) {
         const auto& material = material_of(scene, shape);
-        if (by == NamedBy::object) names.of_shape.push_back(or_unnamed(shape.name.empty() ? material : shape.name));
+        const auto& mesh = shape.name.empty() ? material : shape.name;
+        const bool stands_alone = by == NamedBy::object && !shape.node_name.empty();
+        if (by == NamedBy::object || by == NamedBy::mesh)
+            names.of_shape.push_back(or_unnamed(stands_alone ? shape.node_name : mesh));
         if (by == NamedBy::material) names.of_shape.push_back(or_unnamed(material));
     }
-    for (const auto& instance : scene.instances)
-        names.of_instance.push_back(by == NamedBy::object ? scene.objects[instance.object].name : "");
+    for (const auto& instance : scene.instances) {
+        const bool stands_alone = by == NamedBy::object && !instance.node_name.empty();
+        const bool named = by == NamedBy::object || by == NamedBy::mesh;
+        names.of_instance.push_back(stands_alone ? instance.node_name
+                                    : named      ? scene.objects[instance.object].name
+                                                 : "");
+    }
     return names;
 }
 
 NamedBy named_by(std::string_view word) {
     if (word == "object") return NamedBy::object;
+    if (word == "mesh") return NamedBy::mesh;
     if (word == "material") return NamedBy::material;
     if (word == "lamp") return NamedBy::lamp;
-    throw Error("surfaces are called by object, material or lamp");
+    throw Error("surfaces are called by object, mesh, material or lamp");
 }
 
 }  // namespace lightnet
