@@ -21,8 +21,9 @@ struct SurfaceNames {
     std::vector<std::string> of_instance;  // by instance: instead of its shapes' names, where it has one
 };
 
-/// Objects: what stands there, as glTF names it, else as meshes. Meshes: the name of the shape, or where that has none of
-/// its material; in an instance that of the object, where it has one. Materials: that of the shape's. Lamps: as lamps_of() calls them, shapes alone.
+/// Objects: what stands there, as glTF names it, else as meshes. Meshes: the name of the shape, or where that has none
+/// of its material; in an instance that of the object, where it has one. Materials: that of the shape's. Lamps: as
+/// lamps_of() calls them, shapes alone.
 SurfaceNames surface_names(const SceneData& scene, NamedBy by);
 
 /// "object", "mesh", "material" or "lamp". Throws Error at others.
