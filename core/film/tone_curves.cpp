@@ -41,9 +41,10 @@ Rgb agx(Rgb linear) {
     constexpr Rows out{1.19687900512017f,    -0.0980208811401368f, -0.0990297440797205f,
                        -0.0528968517574562f, 1.15190312990417f,    -0.0989611768448433f,
                        -0.0529716355144438f, -0.0980434501171241f, 1.15107367264116f};
-    constexpr float darkest = -12.47393f, brightest = 4.026069f;  // stops
+    constexpr float least_stops = -12.47393f, most_stops = 4.026069f;  // stops
     const auto contrast = [](float v) {
-        const float x = std::clamp((std::log2(std::max(v, 1e-10f)) - darkest) / (brightest - darkest), 0.0f, 1.0f),
+        const float x = std::clamp((std::log2(std::max(v, 1e-10f)) - least_stops) / (most_stops - least_stops), 0.0f,
+                                   1.0f),
                     x2 = x * x, x4 = x2 * x2;
         return 15.5f * x4 * x2 - 40.14f * x4 * x + 31.96f * x4 - 6.868f * x2 * x + 0.4298f * x2 + 0.1191f * x -
                0.00232f;
