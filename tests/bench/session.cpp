@@ -33,7 +33,7 @@ public:
         const std::string pipe = folder_.file("edits");
         if (::mkfifo(pipe.c_str(), 0600) != 0) throw std::runtime_error("no pipe");
         const auto command = fmt::format(
-            "exec '{}' session '{}/graphs/cornell.lua' {} --size {} --samples 1000 --cache none --json -o '{}' <'{}'",
+            "exec '{}' session '{}/graphs/cornell.lua' {} --size {} -D samples=1000 --cache none --json -o '{}' <'{}'",
             LIGHTNET_STARTS_LIGHTNET, LIGHTNET_SOURCE_DIR, layout, bench::sized("256x256", "16x16"),
             folder_.file("now.exr"), pipe);
         events_.reset(::popen(command.c_str(), "r"));

@@ -192,6 +192,7 @@ private:
     Watcher* watcher_ = nullptr;
     std::optional<Preview> preview_;
     std::string step_exr_;
+    double shown_samples_ = 0;                        // of the last step that was written
     std::function<void(const PictureShown&)> shown_;  // none: steps are not written
     bool previewed_ = false;
     std::optional<CheckpointKeeper> checkpoint_;

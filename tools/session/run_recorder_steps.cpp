@@ -45,7 +45,9 @@ void RunRecorder::show_steps(const std::string& exr, std::function<void(const Pi
 
 // What is lost of it comes with the next step.
 void RunRecorder::write_step() {
-    if (!covered()) return;
+    const double samples = steps_.picture().mean_samples();
+    if (!covered() || samples <= shown_samples_) return;
+    shown_samples_ = samples;
     try {
         write_files(step_exr_, true);
         tell_shown(false);
