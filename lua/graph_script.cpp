@@ -68,7 +68,9 @@ void GraphScript::take_rate(lua_State* L, const std::string& name) {
 void GraphScript::place_in_time(Node& scene) const {
     for (auto& entry : scene.entries)
         if (auto* file = std::get_if<std::string>(&entry.data)) *file = with_frame(*file, static_cast<int>(frame_));
-    if (of_.asked) scene.params.try_emplace("time", Value{time_});
+    const bool blurred = scene.params.contains("shutter");
+    if (of_.asked || blurred) scene.params.try_emplace("time", Value{time_});
+    if (blurred) scene.params.try_emplace("fps", Value{fps_});
 }
 
 const std::size_t* GraphScript::node_at(lua_State* L, int index) const {

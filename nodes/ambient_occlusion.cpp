@@ -40,7 +40,7 @@ private:
         for (std::uint32_t i = 0; i < samples_; ++i) {
             Samples samples(stream, question.sample * samples_ + i);
             const Vec3 direction = frame.to_world(cosine_hemisphere(samples.next_2d()));
-            open += !scene_.occluded({point.origin_towards(up), direction, distance_});
+            open += !scene_.occluded({point.origin_towards(up), direction, distance_, point.time});
         }
         return float(open) / float(samples_);
     }

@@ -46,7 +46,7 @@ private:
             const float choice = bsdf.chooses() ? samples.next() : samples.skip();
             const auto sample = bsdf.sample(question.outgoing, choice, samples.next_2d(), question.lobes);
             if (!sample) continue;
-            const Ray ray{point.origin_towards(sample->incoming), sample->incoming};
+            const Ray ray = point.ray_towards(sample->incoming);
             rays.rays.push_back(ray);
             Rgb light = sample->weight * scene_.environment(ray) / float(samples_);
             if (scene_.has_media()) light *= scene_.transmittance(ray, samples.next_2d());

@@ -35,6 +35,7 @@ public:
           max_depth_(static_cast<std::uint32_t>(here.integer("max_depth"))),
           alpha_(here.flag("alpha")),
           halves_(here.inputs(), alpha_),
+          moves_(scene_.moves() || scene_.camera().moves()),
           background_(here.flag("background")),
           filter_(here.text("filter"), static_cast<float>(here.number("filter_radius"))) {}
 
@@ -140,7 +141,15 @@ private:
             Samples::many_2d(keys, indices, 1, lens);
         }
         std::vector<Ray> rays(samples.size());
-        scene_.camera().rays(positions, lens, rays);
+        if (!moves_) {
+            scene_.camera().rays(positions, lens, rays);
+            return rays;
+        }
+        std::vector<float> numbers(samples.size());
+        Samples::many(keys, indices, 2, numbers);
+        std::vector<ShutterTime> times;
+        for (const float number : numbers) times.push_back(time_in_shutter(number));
+        scene_.camera().rays(positions, lens, times, rays);
         return rays;
     }
 
@@ -286,6 +295,7 @@ private:
     std::uint32_t max_depth_;
     bool alpha_;
     Halves halves_;
+    bool moves_;  // anything, while the shutter is open: else no sample needs a time
     bool background_;
     PixelFilter filter_;
 };

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/base/math/random.hpp"
+#include "core/base/math/shutter.hpp"
 #include "core/base/math/vec.hpp"
 
 namespace lightnet {
@@ -34,7 +35,7 @@ struct Query {
     std::uint8_t lobes = lobe::rough;
     std::uint8_t depth = 0;  // scattering events between the eye and this point
     std::uint16_t pass = 0;  // mark of the pass that it belongs to: mark_of_pass(); 0 where the graph has no passes
-    std::uint16_t time = 0;  // in the shutter: 0 where it opens, 65535 where it closes
+    ShutterTime time = 0;    // in the shutter, at which all is meant
     std::uint16_t medium = no_medium;  // index into the scene's media: of a point in space
     std::uint32_t room = 0;            // for what comes
 

@@ -96,10 +96,7 @@ void BsdfGather::add(std::size_t asker, const Query& question, const SurfacePoin
         const float choice = bsdf.chooses() ? samples.next() : samples.skip();
         const auto step = bsdf.sample(question.outgoing, choice, samples.next_2d(), lobes);
         if (!step || !(max_component(step->weight) > 0)) continue;
-        rays_.push_back({{point.origin_towards(step->incoming), step->incoming},
-                         child(stream, key_, i),
-                         question.sample,
-                         question.depth,
+        rays_.push_back({point.ray_towards(step->incoming), child(stream, key_, i), question.sample, question.depth,
                          question.pass});
         weights_.push_back(step->weight * (1 / float(rays_per_question_)));
         askers_.push_back(asker);

@@ -27,8 +27,8 @@ template <bool guided, class On>
     const auto& steps = plain_.steps();
     if (steps.pdf[i] == 0) return;
     const Vec3 at = plain_.position(i);
-    const LitPoint from = only_lamp_ ? LitPoint(at)  // nothing to choose
-                                     : lit_point(at, plain_.normal(i), plain_.outgoing(i));
+    const LitPoint from = only_lamp_ ? LitPoint(at, plain_.time(i))  // nothing to choose
+                                     : lit_point(at, plain_.normal(i), plain_.outgoing(i), plain_.time(i));
     Step step{{steps.incoming[i], plain_.albedo(i), steps.pdf[i], lobe::diffuse},
               plain_.ray_from(i, steps.incoming[i]),
               from,

@@ -42,11 +42,17 @@ public:
         }
         add_to_last(path, hit, outgoing, lobes);
     }
+    /// A point in a medium, at a time.
+    struct PlaceInSpace {
+        Vec3 position;
+        std::uint16_t medium;
+        ShutterTime time;
+    };
     /// Path `path`, after those added before, has collided with a medium. Not when it is full.
-    void add_in_space(std::uint32_t path, Vec3 position, std::uint16_t medium, Vec3 outgoing, std::uint8_t lobes,
+    void add_in_space(std::uint32_t path, const PlaceInSpace& place, Vec3 outgoing, std::uint8_t lobes,
                       const Rgb* inside) {
         last_ = Kind::none;
-        points_.push_back(scene_.point_in_space(position, medium));
+        points_.push_back(scene_.point_in_space(place.position, place.medium, place.time));
         views_.push_back({outgoing, lobes, inside});
         add_to_last(path, {}, outgoing, lobes);
     }
@@ -70,8 +76,8 @@ public:
             }
             before = &asked;
             if (asked.is_in_space()) {
-                add_in_space(static_cast<std::uint32_t>(path), asked.place_in_space(), asked.medium, asked.outgoing,
-                             asked.lobes, nullptr);
+                add_in_space(static_cast<std::uint32_t>(path), {asked.place_in_space(), asked.medium, asked.time},
+                             asked.outgoing, asked.lobes, nullptr);
                 continue;
             }
             hit = scene_.hit(asked);
@@ -153,7 +159,7 @@ public:
             for (std::size_t i = 0; i < group.size(); ++i) {
                 const std::uint32_t path = group.who(i);
                 const Vec3 light = found.light[i];
-                to.rays[end] = {found.origin[i], found.direction[i], found.far[i]};
+                to.rays[end] = {found.origin[i], found.direction[i], found.far[i], group.time(i)};
                 to.light[end] = weight(path) * Rgb{light.x, light.y, light.z};
                 if (guide_) to.light[end] *= group.guided.share(i);
                 to.sums[end] = sum(path) + found.group[i];
@@ -267,7 +273,8 @@ private:
     template <class Group>
     static LitPoint lit_point_of(const Group& group, std::size_t i) {
         const Vec3 at = group.position(i);
-        return group.has_gloss(i) ? LitPoint(at) : lit_point(at, group.normal(i), group.outgoing(i));
+        return group.has_gloss(i) ? LitPoint(at, group.time(i))
+                                  : lit_point(at, group.normal(i), group.outgoing(i), group.time(i));
     }
     /// Lamps for points that were put into lit_, with the numbers of paths who(i).
     template <class Who>
@@ -321,9 +328,7 @@ private:
                 guided ? &guided_[visitor.point] : nullptr};
     }
     static Step step_to(const Gathering& at, const BsdfSample& sample) {
-        return {sample,
-                {at.point.origin_towards(sample.incoming), sample.incoming},
-                lit_point(at),
+        return {sample, at.point.ray_towards(sample.incoming), lit_point(at),
                 filling(at.bsdf, at.point, at.outgoing, sample.incoming, at.inside)};
     }
 

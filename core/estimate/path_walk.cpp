@@ -185,8 +185,10 @@ private:
         Path& path = batch.paths[i];
         const Collision& at = *batch.collisions[i];
         if (path.inside) path.weight *= left_after(path.inside, at.distance);
-        batch.vertices.add_in_space(static_cast<std::uint32_t>(i), batch.rays[i].origin + path.incoming * at.distance,
-                                    at.medium, -path.incoming, lobe::all, path.inside);
+        const Ray& ray = batch.rays[i];
+        batch.vertices.add_in_space(static_cast<std::uint32_t>(i),
+                                    {ray.origin + path.incoming * at.distance, at.medium, ray.time}, -path.incoming,
+                                    lobe::all, path.inside);
     }
 
     /// Keeps the paths that go on, and adds what shadow rays found where nothing is in between.
@@ -301,7 +303,7 @@ private:
         const float choice = at.bsdf.chooses() ? samples.next() : samples.skip();
         const auto found = at.bsdf.sample(at.outgoing, choice, samples.next_2d(), at.lobes);
         if (!found) return;
-        const Ray ray{at.point.origin_towards(found->incoming), found->incoming};
+        const Ray ray = at.point.ray_towards(found->incoming);
         SkyRadiance seen;
         scene_.look_at_sky({&ray, 1}, {&seen, 1});
         const Rgb sky = found->weight * sky_by_bsdf(seen, *found, heuristic);

@@ -1,6 +1,7 @@
 #include "core/estimate/photon_shooter.hpp"
 
 #include "core/base/error.hpp"
+#include "core/base/math/samples.hpp"
 #include "core/scene/direct_light.hpp"
 
 #include <algorithm>
@@ -80,7 +81,7 @@ template <class Keep>
 void PhotonShooter::visit(PhotonPath path, const Ray& ray, const Hit& hit, const Keep& keep, Batch& batch) const {
     if (path.inside) path.flux *= left_after(path.inside, hit.distance);
     if (scene_.has_media()) {  // what is scattered on the way is left out
-        const Ray way{ray.origin, ray.direction, hit.distance};
+        const Ray way{ray.origin, ray.direction, hit.distance, ray.time};
         path.flux *= scene_.transmittance(way, path.samples.next_2d());
         if (is_black(path.flux)) return;
     }
@@ -104,22 +105,26 @@ void PhotonShooter::visit(PhotonPath path, const Ray& ray, const Hit& hit, const
     path.inside = filling(bsdf, point, arriving, step->incoming, path.inside);
     (step->lobe == lobe::specular ? path.met_mirror : path.met_rough) = true;
     batch.paths.push_back(path);
-    batch.rays.push_back({point.origin_towards(step->incoming), step->incoming});
+    batch.rays.push_back(point.ray_towards(step->incoming));
 }
 
 template <class Keep>
 void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, const Aim& aim, const Keep& keep,
                            std::vector<Aim::Choice>* chosen) const {
     Batch batch;
+    const bool moves = scene_.moves();
+    const Key time_key = child(key_, key_of("shutter"));
     for (std::size_t i = 0; i < count; ++i) {
-        Samples samples(key_, static_cast<std::uint32_t>(first + i));
+        const auto index = static_cast<std::uint32_t>(first + i);
+        Samples samples(key_, index);
         const auto choice = aim.choose(samples);
         const auto& [numbers, weight] = choice;
         if (chosen) chosen->push_back(choice);
-        const auto light = scene_.emit(numbers[0], {numbers[1], numbers[2]}, {numbers[3], numbers[4]});
+        const ShutterTime time = moves ? time_in_shutter(Samples(time_key, index).next()) : ShutterTime(0);
+        const auto light = scene_.emit(numbers[0], {numbers[1], numbers[2]}, {numbers[3], numbers[4]}, time);
         if (!light || !(max_component(light->flux) > 0)) continue;
         batch.paths.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share), light->group});
-        batch.rays.push_back({light->origin, light->direction});
+        batch.rays.push_back({light->origin, light->direction, Ray().far, time});
         batch.free.push_back(light->free);
     }
     for (std::uint32_t surface = 0; !batch.paths.empty() && surface < most_surfaces; ++surface) {

@@ -41,8 +41,10 @@ public:
             step.ray.origin = by.ray.origin;
             step.ray.direction = by.ray.direction;
             step.ray.far = by.ray.far;
+            step.ray.time = by.ray.time;
             step.from.position = by.from.position;
             step.from.normal = by.from.normal;
+            step.from.time = by.from.time;
             step.inside = by.inside;
             step.known = by.known;
             step.favour = by.favour;

@@ -41,7 +41,7 @@ void SpecularPath::take(const SurfacePoint& point, const Bsdf& bsdf, const BsdfS
     inside_ = filling(bsdf, point, -ray_.direction, sample.incoming, inside_);
     weight_ *= sample.weight;
     eta_scale_ *= sample.eta * sample.eta;
-    ray_ = {point.origin_towards(sample.incoming), sample.incoming};
+    ray_ = point.ray_towards(sample.incoming);
 }
 
 }  // namespace lightnet

@@ -28,7 +28,8 @@ public:
     void dim(const Rgb& left) { weight_ *= left; }
     /// The question about a collision on the ray, after `depth` scattering events; whose it is, the asker adds.
     Query question_about(const Collision& at, std::uint32_t depth) const {
-        Query question{.outgoing = -ray_.direction, .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
+        Query question{
+            .outgoing = -ray_.direction, .depth = static_cast<std::uint8_t>(std::min(depth, 255u)), .time = ray_.time};
         question.put_into_space(ray_.origin + ray_.direction * at.distance, at.medium);
         return question;
     }
@@ -41,7 +42,8 @@ public:
                 .v = hit.v,
                 .outgoing = -ray_.direction,
                 .lobes = static_cast<std::uint8_t>(lobes & lobe::rough),
-                .depth = static_cast<std::uint8_t>(std::min(depth, 255u))};
+                .depth = static_cast<std::uint8_t>(std::min(depth, 255u)),
+                .time = ray_.time};
     }
     /// Goes on from that surface by one sample of its specular lobes; false: it ends. Paths whose weight is below
     /// 1 / `keep` are followed seldom, and count more for it: Russian roulette.

@@ -49,10 +49,15 @@ void change_camera(SceneData& scene, const CameraOverride& change, const SourceL
     if (change.from || change.to || change.up) {
         look(camera, change, scene.camera_given, where);
         scene.camera_given = true;
+        camera.later.clear();  // it stands where the graph says
     }
-    if (change.fov) camera.fov = *change.fov, camera.projection = Perspective{};
-    if (change.lens) camera.lens_radius = *change.lens;
-    if (change.focus) camera.focus_distance = *change.focus;
+    const auto change_step = [&](CameraData& step) {
+        if (change.fov) step.fov = *change.fov, step.projection = Perspective{};
+        if (change.lens) step.lens_radius = *change.lens;
+        if (change.focus) step.focus_distance = *change.focus;
+    };
+    change_step(camera);
+    std::ranges::for_each(camera.later, change_step);
     if (!scene.camera_given) return;
     if (const auto fault = camera_fault(camera, scene.film); !fault.empty())
         throw UserError(where, "'camera': " + fault);

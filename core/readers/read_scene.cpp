@@ -1,7 +1,10 @@
 #include "core/readers/read_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,7 @@
 #include "core/readers/obj/obj.hpp"
 #include "core/readers/pbrt/pbrt.hpp"
 #include "core/readers/ply/ply.hpp"
+#include "core/readers/shutter.hpp"
 #include "core/scene/bsdf/check_materials.hpp"
 #include "core/scene/reach.hpp"
 #include "core/scene/textures/look_up.hpp"
@@ -106,6 +110,29 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
     return format->read(files, path, constants);
 }
 
+double seconds_in(const std::string& text) {
+    double seconds = 0;
+    std::from_chars(text.data(), text.data() + text.size(), seconds);
+    return seconds;
+}
+
+/// What is said of a shutter, if anything, and all else apart from it.
+SceneData read_all_its_time(Files& files, const std::string& path, SceneConstants constants,
+                            std::span<const SceneFormat> formats) {
+    const auto said = constants.extract(std::string(shutter_constant));
+    const SceneFormat* format = format_of(path, formats);
+    if (!said || !format || !format->moves) return read(files, path, constants, formats);
+    const auto time = constants.extract(std::string(time_constant));
+    const double now = time ? seconds_in(time.mapped()) : 0;
+    const std::string& span = said.mapped();
+    const auto read_at = [&](double seconds) {
+        SceneConstants then = constants;
+        then[std::string(time_constant)] = fmt::format("{}", seconds);
+        return read(files, path, then, formats);
+    };
+    return read_in_shutter(read_at, {now + seconds_in(span), now + seconds_in(span.substr(span.find(' ') + 1))}, path);
+}
+
 /// What each reader would have to look for: names that lead nowhere or in circles.
 void check(const SceneData& scene, const std::string& path) try {
     check_textures(scene.textures);
@@ -149,7 +176,7 @@ SceneData read_scene(Files& files, const std::string& path, const SceneConstants
 SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants,
                      std::span<const SceneFormat> formats) {
     Watched watched(files, path);
-    SceneData scene = read(watched, path, constants, formats);
+    SceneData scene = read_all_its_time(watched, path, constants, formats);
     check(scene, path);
     if (!watched.outside().empty())
         scene.warnings.push_back(

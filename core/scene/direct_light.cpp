@@ -56,7 +56,7 @@ Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sa
                   Heuristic heuristic) {
     if (!end) {
         SkyRadiance sky;
-        const Ray ray{from.position, sample.incoming};
+        const Ray ray{from.position, sample.incoming, Ray().far, from.time};
         scene.look_at_sky({&ray, 1}, {&sky, 1});
         const auto sun = scene.sun(sample.incoming);
         const Rgb light = sky_by_bsdf(sky, sample, heuristic);

@@ -47,13 +47,15 @@ struct Gathering {
 };
 
 /// Where light is looked for, so that a surface sends it on to `outgoing`.
-inline LitPoint lit_point(Vec3 position, Vec3 normal, Vec3 outgoing) {
-    return {position, dot(outgoing, normal) > 0 ? normal : -normal};
+inline LitPoint lit_point(Vec3 position, Vec3 normal, Vec3 outgoing, ShutterTime time) {
+    return {position, dot(outgoing, normal) > 0 ? normal : -normal, time};
 }
 inline LitPoint lit_point(const Gathering& at) {
     // What gloss sends on doesn't go by the cosine.
     const bool by_cosine = !(at.bsdf.lobes() & lobe::glossy) && at.bsdf.opaque();
-    return by_cosine ? lit_point(at.point.position, at.point.normal, at.outgoing) : LitPoint(at.point.position);
+    const SurfacePoint& point = at.point;
+    return by_cosine ? lit_point(point.position, point.normal, at.outgoing, point.time)
+                     : LitPoint(point.position, point.time);
 }
 
 /// What one sampled light sends to a surface point and on, if nothing is in the way of the ray.

@@ -31,6 +31,27 @@ void check_objects(const SceneData& data) {
             throw Error("scene", "an instance names an object that isn't there");
 }
 
+// Each step must be like the first.
+bool alike(const ShapeGeometry& first, const ShapeGeometry& later) {
+    if (first.index() != later.index()) return false;
+    const auto *mesh = std::get_if<Mesh>(&first), *moved = std::get_if<Mesh>(&later);
+    return !mesh ||
+           (mesh->positions.size() == moved->positions.size() && mesh->normals.size() == moved->normals.size());
+}
+
+void check_motion(const SceneData& data) {
+    for (const auto& [which, later] : data.motion.shapes)
+        if (which >= data.shapes.size() || later.empty() ||
+            !std::ranges::all_of(later, [&](const auto& one) { return alike(data.shapes[which].geometry, one); }))
+            throw Error("scene", "a shape that moves is another one later");
+    for (const auto& [which, later] : data.motion.instances)
+        if (which >= data.instances.size() || later.empty()) throw Error("scene", "an instance that moves isn't there");
+    for (const auto& [which, later] : data.motion.lights)
+        if (which >= data.lights.size() || later.empty() || !can_move(data.lights[which]) ||
+            !std::ranges::all_of(later, [&](const auto& one) { return one.index() == data.lights[which].index(); }))
+            throw Error("scene", "a light that moves is another one later");
+}
+
 SceneData checked(SceneData data) {
     for (const auto& shape : data.shapes) {
         if (shape.material >= data.materials.size()) throw wrong(shape, "names a material that isn't there");
@@ -40,6 +61,7 @@ SceneData checked(SceneData data) {
         if (!fault.empty()) throw wrong(shape, fault);
     }
     check_objects(data);
+    check_motion(data);
     return data;
 }
 
@@ -159,10 +181,17 @@ Hit Scene::hit(const Query& query) const {
     if (query.geometry >= shapes.size() || query.primitive >= pieces_of(shapes[query.geometry].geometry) ||
         (query.instance != Query::no_instance && query.instance >= built_->shading.placements().size()))
         throw Error("scene", "a question names a surface that isn't there");
-    return {query.instance, query.geometry, query.primitive, query.u, query.v, 0};
+    return {query.instance, query.geometry, query.primitive, query.u, query.v, 0, query.time};
 }
 
 const SceneData& Scene::data() const { return built_->data; }
+
+bool Scene::moves() const { return !built_->data.motion.empty(); }
+
+bool Scene::moves(const Hit& hit) const {
+    if (hit.instance != Query::no_instance && !built_->shading.later_placements(hit.instance).empty()) return true;
+    return built_->shading.moving(hit.geometry) != nullptr;
+}
 
 std::uint8_t Scene::lobes(const Hit& hit) const { return built_->shading.lobes(hit.geometry); }
 
@@ -175,8 +204,10 @@ void Scene::add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& t
     for (const SurfacePoint& point : points) to.push_back(bsdf(point));
 }
 
-SurfacePoint Scene::point_in_space(Vec3 position, std::uint16_t medium) const {
-    return built_->media.point(position, medium);
+SurfacePoint Scene::point_in_space(Vec3 position, std::uint16_t medium, ShutterTime time) const {
+    SurfacePoint point = built_->media.point(position, medium);
+    point.time = time;
+    return point;
 }
 
 Flight Scene::fly(const Ray& ray, Rgb carried, Vec2 numbers) const {
@@ -223,8 +254,8 @@ bool Scene::has_suns() const { return lights_->has_suns(); }
 bool Scene::has_lamps() const { return !lights_->empty(); }
 bool Scene::has_many_lamps() const { return lights_->many(); }
 
-std::optional<Emission> Scene::emit(float choice, Vec2 position_sample, Vec2 direction_sample) const {
-    return lights_->emit(choice, position_sample, direction_sample);
+std::optional<Emission> Scene::emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time) const {
+    return lights_->emit(choice, position_sample, direction_sample, time);
 }
 
 bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray) || sun(ray.direction); }
@@ -232,7 +263,8 @@ bool Scene::may_meet_lamp(const Ray& ray) const { return lights_->may_meet_lamp(
 
 Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
     const Vec3 origin = from.origin_towards(lamp.direction);
-    return lamp.from_infinity ? Ray{origin, lamp.direction} : ray_between(origin, lamp.position, lamp.direction);
+    return lamp.from_infinity ? Ray{origin, lamp.direction, Ray().far, from.time}
+                              : ray_between(origin, lamp.position, lamp.direction, from.time);
 }
 
 bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const { return !occluded(ray_to(from, lamp)); }

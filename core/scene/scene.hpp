@@ -89,12 +89,18 @@ public:
     void expect(std::span<const std::optional<Hit>> hits) const;
     /// Of what a question names; a point in a medium as well.
     SurfacePoint surface(const Query& query) const {
-        return query.is_in_space() ? point_in_space(query.place_in_space(), query.medium) : surface(hit(query));
+        return query.is_in_space() ? point_in_space(query.place_in_space(), query.medium, query.time)
+                                   : surface(hit(query));
     }
     /// What a question names, as if a ray had met it. Throws Error if it isn't there: it may come from another host.
     Hit hit(const Query& query) const;
     /// A point in a medium. Throws Error if there is no such medium.
-    SurfacePoint point_in_space(Vec3 position, std::uint16_t medium) const;
+    SurfacePoint point_in_space(Vec3 position, std::uint16_t medium, ShutterTime time = 0) const;
+
+    /// Does anything but the camera move while the shutter is open? Where nothing does, all times are alike.
+    bool moves() const;
+    /// Does the surface move that was hit?
+    bool moves(const Hit& hit) const;
 
     /// Is there any medium? Where there is none, nobody needs to ask what follows.
     bool has_media() const { return has_media_; }
@@ -150,9 +156,9 @@ public:
     /// Is there anything that sample_light() could find, and has it more than one light to choose from?
     bool has_lamps() const;
     bool has_many_lamps() const;
-    /// Light leaving one of all lights, chosen by power; the environment's goes into the ball around the scene. None:
-    /// nothing leaves by this sample.
-    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample) const;
+    /// Light leaving one of all lights at a time, chosen by power; the environment's goes into the ball around the
+    /// scene. None: nothing leaves by this sample.
+    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time = 0) const;
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
     /// Could the ray end on a lamp? Where it is false, all that the ray could find is the environment.

@@ -32,6 +32,9 @@ SceneData borders_of(const SceneData& data) {
             if (parts_media(data.shapes[shape])) part.shapes.push_back(number[shape]);
     }
     borders.instances = data.instances;
+    borders.motion.instances = data.motion.instances;
+    for (const auto& [which, later] : data.motion.shapes)
+        if (parts_media(data.shapes[which])) borders.motion.shapes.push_back({number[which], later});
     return borders;
 }
 
@@ -81,7 +84,8 @@ void Media::each_stretch(const Ray& ray, Take&& take) const {
     Vec3 origin = ray.origin;
     float begin = 0;
     for (int i = 0; i < most_borders; ++i) {
-        const auto hit = borders_ ? borders_->geometry.intersect({origin, ray.direction}) : std::nullopt;
+        const auto hit =
+            borders_ ? borders_->geometry.intersect({origin, ray.direction, Ray().far, ray.time}) : std::nullopt;
         std::uint16_t here = beyond;
         float end = ray.far;
         if (hit) {

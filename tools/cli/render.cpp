@@ -46,6 +46,10 @@ void override_scene(Node& scene, const RenderedScene& wanted) {
             scene.params["environment"] = {from_anywhere(wanted.environment)};
     }
     if (wanted.two_sided) scene.params["two_sided"] = {true};
+    if (!(wanted.shutter > 0)) return;
+    scene.params["shutter"] = {Table{{{0.0}, {wanted.shutter / 360}}, {}}};
+    scene.params.try_emplace("fps", Value{wanted.fps > 0 ? wanted.fps : usual_fps});
+    scene.params.try_emplace("time", Value{0.0});
 }
 
 /// `kinds`: what is added up.

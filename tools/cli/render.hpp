@@ -29,6 +29,7 @@ struct RenderedScene {
     std::map<std::string, std::string> constants;  // -D: of the scene file, or of the graph file
     GraphFrame frame{};                            // which is rendered
     double fps = 0;                                // 0: as a graph file says, or 24
+    double shutter = 0;                            // degrees; 0: each frame is an instant
 };
 
 /// The graph that lights the scene in the way of its `lighting`; the scenes of a graph file are replaced by this one.

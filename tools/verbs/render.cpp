@@ -41,6 +41,10 @@ void describe_render(CLI::App& app, RenderOptions& options) {
         ->type_name("FILE|COLOUR");
     app.add_flag("--two-sided", scene.two_sided,
                  "surfaces reflect on both sides, also where Mitsuba's are black from behind");
+    app.add_option("--shutter", scene.shutter,
+                   "motion blur: how long the shutter is open, of the 360 degrees of a frame: 180 is usual")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(0.0, 360.0));
     add_constants(app, scene.constants,
                   "define a variable of the scene file, or a constant of GRAPH.lua (may be repeated)");
     add_frames(app, options.frames);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/network/graph/graph.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -66,8 +68,18 @@ std::vector<Param> fog_fields() {
              .optional = true}};
 }
 
+std::vector<std::string> scene_mistakes(const Node& node, const SceneData*) {
+    const auto shutter = node.params.find("shutter");
+    if (shutter == node.params.end()) return {};
+    const auto& span = std::get<Table>(shutter->second.data).list;
+    const auto frames = [&](std::size_t i) { return std::get<double>(span.at(i).data); };
+    if (frames(1) >= frames(0)) return {};
+    return {"'shutter' closes before it opens: { open, close }, in frames, such as { 0, 0.5 }"};
+}
+
 Kind scene_kind() {
     Kind kind;
+    kind.mistakes = scene_mistakes;
     kind.name = "Scene";
     kind.role = Role::scene;
     kind.help = "what is seen: Scene { \"file.pbrt\" }, the file named from the graph's folder";
@@ -118,6 +130,17 @@ Kind scene_kind() {
         {.name = "time",
          .help = "of what moves in the file; else that of the frame, and in a still all stands as the file has it",
          .unit = "seconds",
+         .optional = true},
+        {.name = "shutter",
+         .type = ParamType::numbers,
+         .help = "when it opens and closes, after the time: { 0, 0.5 } is half a frame, a shutter of 180 degrees; what "
+                 "moves in the file meanwhile is blurred",
+         .unit = "frames",
+         .optional = true,
+         .count = 2},
+        {.name = "fps",
+         .help = "frames per second, of which the shutter's are; else those of the graph",
+         .least = 1e-6,
          .optional = true},
         {.name = "material",
          .type = ParamType::text,

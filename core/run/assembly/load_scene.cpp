@@ -54,6 +54,9 @@ FogOverride fog_override(const Values& fog) {
     return wanted;
 }
 
+// Frames per second, where nobody says otherwise.
+constexpr float usual_fps = 24;
+
 }  // namespace
 
 SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
@@ -104,6 +107,15 @@ std::map<std::string, std::string> scene_constants(const Node& scene) {
     if (const auto time = scene.params.find("time"); time != scene.params.end())
         if (std::holds_alternative<double>(time->second.data))
             constants[std::string(time_constant)] = to_string(time->second);
+    if (const auto shutter = scene.params.find("shutter"); shutter != scene.params.end())
+        if (const auto* span = std::get_if<Table>(&shutter->second.data); span && span->list.size() == 2) {
+            const double fps = number(scene.params, "fps").value_or(usual_fps);
+            const auto seconds = [&](std::size_t i) {
+                const auto* frames = std::get_if<double>(&span->list[i].data);
+                return to_string(Value{frames ? *frames / fps : 0});
+            };
+            constants[std::string(shutter_constant)] = seconds(0) + " " + seconds(1);
+        }
     return constants;
 }
 

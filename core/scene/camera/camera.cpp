@@ -20,7 +20,38 @@ bool may_have_lens(const AnyProjection& projection) {
 
 Camera::Camera(const CameraData& data, std::uint32_t width, std::uint32_t height)
     : view_(view_of(data, {float(width), float(height)})),
-      has_lens_(data.lens_radius > 0 && may_have_lens(data.projection)) {}
+      has_lens_(data.lens_radius > 0 && may_have_lens(data.projection)) {
+    for (const CameraData& step : data.later) {
+        later_.push_back(view_of(step, {float(width), float(height)}));
+        has_lens_ |= step.lens_radius > 0 && may_have_lens(step.projection);
+    }
+}
+
+Ray Camera::ray(const AnyView& view, Vec2 position, const Vec2* lens) const {
+    const auto through = [&](const auto& one) {
+        return lens ? one.ray(position.x, position.y, *lens) : one.ray(position.x, position.y);
+    };
+    return std::visit(through, view);
+}
+
+// Between two steps rays go evenly: whatever the projection, and whatever of the camera changes.
+void Camera::rays(std::span<const Vec2> positions, std::span<const Vec2> lens, std::span<const ShutterTime> times,
+                  std::span<Ray> rays) const {
+    if (!moves()) {
+        this->rays(positions, lens, rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i].time = times[i];
+        return;
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const StepPlace place(later_.size() + 1, times[i]);
+        const Vec2* point = lens.empty() ? nullptr : &lens[i];
+        const Ray before = ray(place.step == 0 ? view_ : later_[place.step - 1], positions[i], point);
+        const Ray after = ray(later_[place.step], positions[i], point);
+        const Vec3 direction = place.between(before.direction, after.direction);
+        rays[i] = {place.between(before.origin, after.origin),
+                   length_squared(direction) > 0 ? normalize(direction) : before.direction, before.far, times[i]};
+    }
+}
 
 void Camera::rays(std::span<const Vec2> positions, std::span<const Vec2> lens, std::span<Ray> rays) const {
     const auto through = [&](const auto& view) {

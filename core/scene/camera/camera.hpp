@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "core/base/math/vec.hpp"
 #include "core/scene/camera/camera_data.hpp"
@@ -31,6 +32,11 @@ public:
     }
     /// The rays through many picture positions and points of the lens; no points of the `lens`: through its middle.
     void rays(std::span<const Vec2> positions, std::span<const Vec2> lens, std::span<Ray> rays) const;
+    /// Does it move while the shutter is open? What is asked above and below without a time is as it opens.
+    bool moves() const { return !later_.empty(); }
+    /// The rays at times of their own; they are told of these.
+    void rays(std::span<const Vec2> positions, std::span<const Vec2> lens, std::span<const ShutterTime> times,
+              std::span<Ray> rays) const;
 
     /// Where in the picture `position` (world space) is seen from the middle of the lens, as homogeneous coordinates:
     /// pixel (x / z, y / z) from the upper left corner. z is above 0 for what lies before the eye.
@@ -39,7 +45,10 @@ public:
     }
 
 private:
+    Ray ray(const AnyView& view, Vec2 position, const Vec2* lens) const;
+
     AnyView view_;
+    std::vector<AnyView> later_;  // at later steps
     bool has_lens_ = false;
 };
 

@@ -1,10 +1,12 @@
 // A scene as read from files: plain data, before anything is built from it. Readers write it, Scene consumes it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -207,6 +209,45 @@ void visit_members(Is<DirectionalLight> auto& light, const auto& visit) {
 
 using BareLight = std::variant<PointLight, SpotLight, DirectionalLight>;
 
+/// One of a scene's shapes, instances or lights while the shutter is open: the scene has it as it is when that opens,
+/// and `later` at evenly spaced steps, the last when it closes. Between two steps all numbers go evenly.
+template <class State>
+struct Moved {
+    std::uint32_t which = 0;  // index into the scene's list
+    std::vector<State> later;
+};
+template <class State>
+void visit_members(const Moved<State>& moved, const auto& visit) {
+    visit(moved.which, moved.later);
+}
+
+/// What moves, in the order of the scene's lists. A mesh that does has positions and normals alone, as many as at
+/// first.
+struct SceneMotion {
+    std::vector<Moved<ShapeGeometry>> shapes;
+    std::vector<Moved<Matrix>> instances;  // Instance::to_world
+    std::vector<Moved<BareLight>> lights;
+
+    /// Of one of a list; none: it stands still.
+    template <class State>
+    static std::span<const State> steps_after(const std::vector<Moved<State>>& all, std::size_t which) {
+        const auto found = std::ranges::lower_bound(all, which, {}, &Moved<State>::which);
+        if (found == all.end() || found->which != which) return {};
+        return found->later;
+    }
+    template <class State>
+    static std::span<State> steps_after(std::vector<Moved<State>>& all, std::size_t which) {
+        const auto found = std::ranges::lower_bound(all, which, {}, &Moved<State>::which);
+        if (found == all.end() || found->which != which) return {};
+        return found->later;
+    }
+    bool empty() const { return shapes.empty() && instances.empty() && lights.empty(); }
+};
+void visit_members(Is<SceneMotion> auto& motion, const auto& visit) {
+    auto& [shapes, instances, lights] = motion;
+    visit(shapes, instances, lights);
+}
+
 struct SceneData {
     std::vector<Shape> shapes;  // those that no object names stand in world space
     std::vector<Object> objects;
@@ -226,12 +267,14 @@ struct SceneData {
     std::vector<Problem> warnings;             // what was approximated or left out
     Onlooker as_read{};                        // as the file has it, where a graph changes what the scene says
     std::vector<SceneAnimation> animations{};  // that the file holds, whether or not it was read at some time of one
+    SceneMotion motion{};                      // while the shutter is open
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
     auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, media,
-           around, camera, camera_given, cameras, film, warnings, as_read, animations] = scene;
+           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights, media, around);
+    if (!motion.empty()) visit(motion);  // what stands still is what it was before there was any
 }
 
 }  // namespace lightnet

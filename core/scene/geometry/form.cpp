@@ -29,7 +29,8 @@ void pass_holes(const RTCFilterFunctionNArguments* args) {
 }
 
 void sphere_bounds(const RTCBoundsFunctionArguments* args) {
-    const Sphere& sphere = *form_of(args->geometryUserPtr).sphere;
+    const Form& form = form_of(args->geometryUserPtr);
+    const Sphere& sphere = form.moving ? std::get<Sphere>(form.moving->at_step(args->timeStep)) : *form.sphere;
     const float r = sphere.radius * (1 + 1e-6f);
     const auto low = [r](float c) { return c - r - std::fabs(c) * 1e-6f; };
     const auto high = [r](float c) { return c + r + std::fabs(c) * 1e-6f; };
@@ -38,7 +39,9 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
 }
 
 void quadric_bounds(const RTCBoundsFunctionArguments* args) {
-    const Box box = form_of(args->geometryUserPtr).quadric->bounds();
+    const Form& form = form_of(args->geometryUserPtr);
+    const Box box = form.moving ? PlacedQuadric(std::get<Quadric>(form.moving->at_step(args->timeStep))).bounds()
+                                : form.quadric->bounds();
     *args->bounds_o = {box.low.x, box.low.y, box.low.z, 0, box.high.x, box.high.y, box.high.z, 0};
 }
 
@@ -53,6 +56,17 @@ const Round& round_of(const Form& form) {
         return *form.sphere;
     else
         return *form.quadric;
+}
+
+// As it stands at a time.
+template <class Round, class With>
+void with_round(const MovingShape& moving, float open, const With& with) {
+    if constexpr (std::is_same_v<Round, Sphere>)
+        with(moving.sphere(open));
+    else {
+        const Quadric quadric = moving.quadric(open);
+        with(PlacedQuadric(quadric));
+    }
 }
 
 constexpr unsigned most_rays = 16;  // in a packet of Embree's
@@ -84,7 +98,7 @@ struct MeetingSphere {
 /// Which rays of a packet may meet a form: spheres are tried, quadrics may all be met.
 template <class Round>
 std::array<std::uint64_t, most_rays> which_may_meet(const Form& form, RTCRayN* rays, unsigned n, float stretch) {
-    if constexpr (std::is_same_v<Round, Sphere>) {
+    if (std::is_same_v<Round, Sphere> && !form.moving) {
         MeetingSphere meeting(*form.sphere, rays, n, stretch);
         work_in_lanes(meeting);
         return meeting.met;
@@ -101,9 +115,14 @@ template <class Round, class Found>
 void nearest_on_round(const Form& form, RTCRayN* rays, unsigned n, unsigned i, float far, Found found) {
     const Vec3 origin{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
     const Vec3 direction{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-    meet(round_of<Round>(form), origin, direction, RTCRayN_tnear(rays, n, i), far, [&](float t, Vec2 name) {
-        return form.is_there({0, name}) && found(t, name);
-    });
+    const auto accept = [&](float t, Vec2 name) { return form.is_there({0, name}) && found(t, name); };
+    const auto meet_it = [&](const Round& round) {
+        meet(round, origin, direction, RTCRayN_tnear(rays, n, i), far, accept);
+    };
+    if (form.moving)
+        with_round<Round>(*form.moving, RTCRayN_time(rays, n, i), meet_it);
+    else
+        meet_it(round_of<Round>(form));
 }
 
 // Where two are met at one distance, the first by instance and shape counts: packets come to them in another order than
@@ -146,7 +165,7 @@ void hide_behind_round(const RTCOccludedFunctionNArguments* args) {
             RTCRayN_tfar(args->ray, n, i) = -INFINITY;
             return true;
         };
-        if (std::is_same_v<Round, Sphere> && !form.holes)
+        if (std::is_same_v<Round, Sphere> && !form.holes && !form.moving)
             hide();
         else
             nearest_on_round<Round>(form, args->ray, n, i, RTCRayN_tfar(args->ray, n, i), hide);
@@ -160,14 +179,18 @@ void share_faces(RTCGeometry geometry, const std::vector<std::array<std::uint32_
                                faces.size());
 }
 
-RTCGeometry make(RTCDevice device, Mesh& mesh, Form& form) {
+void share_vertices(RTCGeometry geometry, unsigned step, Mesh& mesh) {
     const std::size_t vertices = mesh.positions.size();
     mesh.positions.reserve(vertices + 1);
     mesh.positions.emplace_back();  // Embree reads 16 bytes of the last vertex
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
+                               sizeof(Vec3), vertices);
+}
+
+RTCGeometry make(RTCDevice device, Mesh& mesh, Form& form) {
     const bool paired = !form.quads.empty();
     RTCGeometry geometry = rtcNewGeometry(device, paired ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
-                               sizeof(Vec3), vertices);
+    share_vertices(geometry, 0, mesh);
     paired ? share_faces(geometry, form.quads.corners()) : share_faces(geometry, mesh.triangles);
     if (form.holes) {
         rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
@@ -212,9 +235,12 @@ void pair_triangles(const SceneData& data, std::span<Form> forms) {
     for (Form& form : forms) form.quads = {};
 }
 
-RTCGeometryTy* new_geometry(RTCDeviceTy* device, Shape& shape, Form& form) {
+RTCGeometryTy* new_geometry(RTCDeviceTy* device, Shape& shape, Form& form, std::span<ShapeGeometry> later) {
     RTCGeometry geometry = std::visit([&](auto& each) { return make(device, each, form); }, shape.geometry);
     rtcSetGeometryUserData(geometry, &form);
+    if (!later.empty()) rtcSetGeometryTimeStepCount(geometry, unsigned(later.size() + 1));
+    for (unsigned i = 0; i < later.size(); ++i)
+        if (auto* mesh = std::get_if<Mesh>(&later[i])) share_vertices(geometry, i + 1, *mesh);
     return geometry;
 }
 

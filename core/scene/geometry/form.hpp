@@ -20,6 +20,7 @@ struct Form {
     bool holes;
     const Sphere* sphere = nullptr;          // or a mesh
     const PlacedQuadric* quadric = nullptr;  // the same
+    const MovingShape* moving = nullptr;     // of what moves; null: it stands still
     Quads quads{};                           // of a mesh whose triangles are paired
 
     /// Embree's name of a point as ours.
@@ -35,7 +36,8 @@ struct Form {
 /// quads beside that for triangles, so a scene has one or the other. One form for each shape.
 void pair_triangles(const SceneData& data, std::span<Form> forms);
 
-/// Keeps looking at both, which stay where they are. Pads a mesh's positions by one element. To be released.
-RTCGeometryTy* new_geometry(RTCDeviceTy* device, Shape& shape, Form& form);
+/// Keeps looking at both, which stay where they are. Pads a mesh's positions by one element, and those of `later`: the
+/// steps of what moves. To be released.
+RTCGeometryTy* new_geometry(RTCDeviceTy* device, Shape& shape, Form& form, std::span<ShapeGeometry> later);
 
 }  // namespace lightnet

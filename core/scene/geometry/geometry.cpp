@@ -43,7 +43,7 @@ void set(RTCRay& to, const Ray& ray) {
           ray.direction.x,
           ray.direction.y,
           ray.direction.z,
-          0,
+          part_of_shutter(ray.time),
           ray.far,
           ~0u,
           0,
@@ -113,10 +113,11 @@ void fill(Packet& packet, Valid<lanes>& valid, std::span<const Ray> rays, float 
         packet.dir_y[i] = ray.direction.y;
         packet.dir_z[i] = ray.direction.z;
         packet.tfar[i] = ray.far;
+        packet.time[i] = part_of_shutter(ray.time);
     }
     for (std::size_t i = 0; i < lanes; ++i) {
         valid[i] = i < rays.size() ? -1 : 0;
-        packet.tnear[i] = packet.time[i] = 0;
+        packet.tnear[i] = 0;
         packet.mask[i] = ~0u;
         packet.id[i] = packet.flags[i] = 0;
     }
@@ -181,7 +182,7 @@ RTCDevice device_for(const Geometry::Options& options) {
 }  // namespace
 
 struct Geometry::Tracer {
-    Tracer(const SceneData& shapes_of, const Options& options)
+    Tracer(SceneData& shapes_of, const Options& options)
         : data(shapes_of),
           device(device_for(options)),
           scene(rtcNewScene(device)),
@@ -214,18 +215,22 @@ struct Geometry::Tracer {
         const auto index = std::size_t(&shape - data.shapes.data());
         RTCGeometry& geometry = geometries[index];
         if (!geometry) {
-            geometry = new_geometry(device, shape, forms[index]);
+            geometry = new_geometry(device, shape, forms[index], SceneMotion::steps_after(data.motion.shapes, index));
             rtcCommitGeometry(geometry);
         }
         rtcAttachGeometryByID(to, geometry, id);
     }
     void attach(const Instance& instance, unsigned id) {
-        const Placement placement(instance.to_world);  // may throw: before there is what would leak
-        const auto& columns = placement.columns();
-        farthest = std::clamp(float(placement.farthest_outside(1e18)), 0.0f, farthest);
+        std::vector<Placement> steps{Placement(instance.to_world)};  // may throw: before there is what would leak
+        for (const Matrix& later : SceneMotion::steps_after(data.motion.instances, id - data.shapes.size()))
+            steps.emplace_back(later);
+        for (const Placement& placement : steps)
+            farthest = std::clamp(float(placement.farthest_outside(1e18)), 0.0f, farthest);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, objects[instance.object]);
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+        rtcSetGeometryTimeStepCount(geometry, unsigned(steps.size()));
+        for (unsigned i = 0; i < steps.size(); ++i)
+            rtcSetGeometryTransform(geometry, i, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, steps[i].columns().data());
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
         rtcReleaseGeometry(geometry);
@@ -242,18 +247,18 @@ struct Geometry::Tracer {
     }
 
     // Embree numbers the shapes of an object for itself.
-    Hit hit(unsigned instance, unsigned geometry, unsigned primitive, Vec2 at, float distance) const {
+    Hit hit(unsigned instance, unsigned geometry, unsigned primitive, Vec2 at, float distance, ShutterTime time) const {
         if (instance != RTC_INVALID_GEOMETRY_ID) {
             instance -= unsigned(data.shapes.size());
             geometry = data.objects[data.instances[instance].object].shapes[geometry];
         }
         const TrianglePoint point = forms[geometry].point(primitive, at);
-        return {instance, geometry, point.triangle, point.at.x, point.at.y, distance};
+        return {instance, geometry, point.triangle, point.at.x, point.at.y, distance, time};
     }
     template <class Wide>
     void meet(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
 
-    const SceneData& data;
+    SceneData& data;
     std::atomic<std::ptrdiff_t> bytes = 0;  // before the device, which counts on it to its end
     std::vector<Form> forms;                // by shape
     RTCDevice device;
@@ -280,7 +285,7 @@ void Geometry::Tracer::meet(std::span<const Ray> rays, std::span<std::optional<H
                 hits[first + i].reset();
             else
                 hits[first + i] = hit(found.instID[0][i], found.geomID[i], found.primID[i], {found.u[i], found.v[i]},
-                                      together.ray.tfar[i]);
+                                      together.ray.tfar[i], rays[first + i].time);
         }
     }
 }
@@ -293,7 +298,8 @@ Geometry::Geometry(SceneData& data, const Shading& shading, const Options& optio
     for (const auto& object : data.objects)
         for (const auto shape : object.shapes) in_object[shape] = true;
     for (const auto& instance : data.instances) used[instance.object] = true;
-    for (std::uint32_t s = 0; s < shapes; ++s) tracer.forms.push_back({&shading, s, shading.has_holes(s)});
+    for (std::uint32_t s = 0; s < shapes; ++s)
+        tracer.forms.push_back({&shading, s, shading.has_holes(s), nullptr, nullptr, shading.moving(s)});
     if (triangles_of(data) >= options.quads_from) pair_triangles(data, tracer.forms);
     const auto is_there = [&](std::uint32_t shape) {
         return !std::holds_alternative<NoMaterial>(data.materials[data.shapes[shape].material].model);
@@ -329,7 +335,7 @@ std::optional<Hit> Geometry::intersect(const Ray& ray) const {
     rtcIntersect1(tracer_->scene, &query);
     const auto& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return tracer_->hit(hit.instID[0], hit.geomID, hit.primID, {hit.u, hit.v}, query.ray.tfar);
+    return tracer_->hit(hit.instID[0], hit.geomID, hit.primID, {hit.u, hit.v}, query.ray.tfar, ray.time);
 }
 
 void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {

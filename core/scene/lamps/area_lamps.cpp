@@ -23,9 +23,15 @@ constexpr std::size_t most_known = 4096;  // more wouldn't stay in the cache
 
 bool shines_towards(bool two_sided, Vec3 normal, Vec3 direction) { return two_sided || dot(normal, direction) > 0; }
 
+inline Facet facet(const Corners& at, Vec3 normal) { return {at.a, at.b - at.a, at.c - at.a, normal}; }
 inline Facet facet(const Mesh& mesh, std::uint32_t triangle) {
     const Corners at = corners(mesh, triangle);
-    return {at.a, at.b - at.a, at.c - at.a, geometric_normal(mesh, triangle, at)};
+    return facet(at, geometric_normal(mesh, triangle, at));
+}
+Facet facet(const MovingShape& moving, const Mesh& mesh, std::uint32_t triangle, ShutterTime time) {
+    const Corners at = moving.corners(triangle, time), normals = moving.normals(triangle, time);
+    return facet(at,
+                 geometric_normal(at, normals.a + normals.b + normals.c, mesh.normals.empty() && mesh.flip_normals));
 }
 float area_of(const Facet& facet) { return area_of(Corners{{}, facet.first_edge, facet.second_edge}); }
 
@@ -63,9 +69,21 @@ AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet gro
     for (std::uint32_t s = 0; s < data.shapes.size(); ++s) {
         const Shape& shape = data.shapes[s];
         if (!is_lamp(data, shape, groups)) continue;
+        if (const MovingShape* moving = shading.moving(s)) {
+            add(s, *moving);
+            continue;
+        }
         std::visit([&](const auto& placed) { add(s, placed); }, shading.placed(s));
     }
     for (std::size_t i = 0; size() <= most_known && i < size(); ++i) known_.push_back(even(i));
+}
+
+// Of a mesh that moves each triangle is a lamp, as they may not stay in one plane.
+void AreaLamps::add(std::uint32_t shape, const MovingShape& moving) {
+    const Box box = moving.bounds();
+    balls_.add(box.center(), length(box.size()) / 2);
+    const auto* mesh = std::get_if<Mesh>(&moving.at_step(0));
+    add_source(shape, mesh ? std::uint32_t(mesh->triangles.size()) : 1, 0);
 }
 
 void AreaLamps::add(std::uint32_t shape, const Mesh* placed) {
@@ -113,7 +131,7 @@ void AreaLamps::add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32
     source.group = group_of(shape);
     source.unseen = emission.unseen;
     source.uniform = !emission.texture && !shading_.has_holes(shape) && !emission.unseen;
-    source.area = on_shape(source, [&](const auto& placed) { return area(source, placed); });
+    source.area = on_shape(source, 0, [&](const auto& placed) { return area(source, placed); });
     if (!std::isfinite(source.area)) source.area = 0;  // never chosen
     if (source.uniform && facets == 2)
         if (const auto whole = parallelogram(facets_[source.first], facets_[source.first + 1])) {
@@ -131,13 +149,26 @@ float AreaLamps::area(const Source& source, const Mesh*) const {
     return area;
 }
 
-AreaLamps::Lamp AreaLamps::lamp(std::size_t index) const {
+AreaLamps::Lamp AreaLamps::lamp(std::size_t index, ShutterTime time) const {
     const Source& source = sources_[source_of_[index]];
-    if (!source.by_triangle) return {source, 0, source.area};
+    const MovingShape* moving = shading_.moving(source.shape);
+    if (!source.by_triangle) {
+        if (!moving || !std::holds_alternative<Sphere>(moving->at_step(0))) return {source, 0, source.area, time};
+        const Sphere ball = moving->sphere(part_of_shutter(time));
+        return {source, 0, area(source, &ball), time};
+    }
     const auto triangle = std::uint32_t(index - source.first_lamp);
-    const Corners at = corners(mesh_of(source), triangle);
+    const Corners at = moving ? moving->corners(triangle, time) : corners(mesh_of(source), triangle);
     const float area = area_of(at);
-    return {source, triangle, std::isfinite(area) ? area : 0};
+    return {source, triangle, std::isfinite(area) ? area : 0, time};
+}
+
+template <class With>
+void AreaLamps::at_each_step(std::size_t index, const With& with) const {
+    const MovingShape* moving = shading_.moving(sources_[source_of_[index]].shape);
+    const std::size_t steps = moving ? moving->steps() : 1;
+    for (std::size_t step = 0; step < steps; ++step)
+        with(lamp(index, steps > 1 ? ShutterTime(step * shutter_closes / (steps - 1)) : ShutterTime(0)));
 }
 
 // Of two triangles that are its halves.
@@ -164,8 +195,7 @@ Rgb AreaLamps::mean_of_texture(const Lamp& lamp) const {
     Rgb sum{0.16f, 0.16f, 0.16f};
     for (int i = 0; i < 16; ++i) {
         const Vec2 u{(float(i % 4) + 0.5f) / 4, (float(i / 4) + 0.5f) / 4};
-        const PointOnLamp point =
-            on_shape(lamp.source, [&](const auto& placed) { return start(lamp, placed, u).point; });
+        const PointOnLamp point = on_shape(lamp, [&](const auto& placed) { return start(lamp, placed, u).point; });
         sum += texture_at(shape, point.primitive, point.u, point.v);
     }
     return sum / 16.16f;
@@ -198,6 +228,8 @@ Rgb AreaLamps::radiance_at(const Source& source, const PointOnLamp& point) const
 Facet AreaLamps::facet_of(const Lamp& lamp, std::uint32_t& primitive, float& u) const {
     const Source& source = lamp.source;
     primitive = lamp.triangle;
+    if (const MovingShape* moving = source.by_triangle ? shading_.moving(source.shape) : nullptr)
+        return facet(*moving, mesh_of(source), primitive, lamp.time);
     if (source.by_triangle) return facet(mesh_of(source), primitive);
     if (source.facets > 1) primitive = std::uint32_t(pick(std::span(ends_).subspan(source.first, source.facets), u));
     return facets_[source.first + primitive];
@@ -210,9 +242,9 @@ AreaLamps::Start AreaLamps::start(const Lamp& lamp, const Mesh*, Vec2 u) const {
     return {{facet.at(at), facet.normal, primitive, at.x, at.y}, lamp.area};
 }
 
-std::optional<LightSample> AreaLamps::sample(std::size_t index, Vec3 from, Vec2 u) const {
-    const Lamp one = lamp(index);
-    return on_shape(one.source, [&](const auto& placed) { return sample(one, placed, from, u); });
+std::optional<LightSample> AreaLamps::sample(std::size_t index, const LitPoint& from, Vec2 u) const {
+    const Lamp one = lamp(index, from.time);
+    return on_shape(one, [&](const auto& placed) { return sample(one, placed, from.position, u); });
 }
 
 void AreaLamps::expect(std::span<const LightChoice> chosen) const {
@@ -261,21 +293,25 @@ AreaLamps::EvenLamp AreaLamps::even(const Lamp& one, const Mesh*) const {
 }
 
 AreaLamps::EvenLamp AreaLamps::even(std::size_t index) const {
-    const Lamp one = lamp(index);
-    return on_shape(one.source, [&](const auto& placed) { return even(one, placed); });
+    const Lamp one = lamp(index, 0);
+    if (shading_.moving(one.source.shape)) return {};
+    return on_shape(one, [&](const auto& placed) { return even(one, placed); });
 }
 
 float AreaLamps::pdf(std::size_t index, Vec3 from, Vec3 direction, const SurfacePoint& on) const {
-    const Lamp one = lamp(index);
+    const Lamp one = lamp(index, on.time);
     const Found found{from, direction, on, one.area, one.source.two_sided};
-    return on_shape(one.source, [&](const auto& placed) { return density(placed, found); });
+    return on_shape(one, [&](const auto& placed) { return density(placed, found); });
 }
 
 LightBounds AreaLamps::bounds(std::size_t index) const {
-    const Lamp one = lamp(index);
-    const Source& source = one.source;
-    const float radiance = luminance(source.radiance * mean_of_texture(one));
-    return on_shape(source, [&](const auto& placed) { return bounds(one, placed, radiance); });
+    std::optional<LightBounds> all;
+    at_each_step(index, [&](const Lamp& one) {
+        const float radiance = luminance(one.source.radiance * mean_of_texture(one));
+        const LightBounds step = on_shape(one, [&](const auto& placed) { return bounds(one, placed, radiance); });
+        all = all ? around_both(*all, step) : step;
+    });
+    return *all;
 }
 
 LightBounds AreaLamps::bounds(const Lamp& one, const Mesh*, float radiance) const {
@@ -293,17 +329,21 @@ LightBounds AreaLamps::bounds(const Lamp& one, const Mesh*, float radiance) cons
 }
 
 Rgb AreaLamps::power(std::size_t index) const {
-    const Lamp one = lamp(index);
-    return one.source.radiance * mean_of_texture(one) * (pi * one.area * (one.source.two_sided ? 2 : 1));
+    Rgb most;
+    at_each_step(index, [&](const Lamp& one) {
+        const Rgb step = one.source.radiance * mean_of_texture(one) * (pi * one.area * (one.source.two_sided ? 2 : 1));
+        if (!(luminance(step) < luminance(most))) most = step;
+    });
+    return most;
 }
 
-std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample, Vec2 direction_sample) const {
-    const Lamp one = lamp(index);
+std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample, Vec2 direction_sample,
+                                        ShutterTime time) const {
+    const Lamp one = lamp(index, time);
     const Source& source = one.source;
     if (!(one.area > 0)) return {};
     float sides = 1;
-    auto [start, area] =
-        on_shape(source, [&](const auto& placed) { return this->start(one, placed, position_sample); });
+    auto [start, area] = on_shape(one, [&](const auto& placed) { return this->start(one, placed, position_sample); });
     if (source.two_sided) {
         sides = 2;
         const bool back = direction_sample.x >= 0.5f;
@@ -311,7 +351,7 @@ std::optional<Emission> AreaLamps::emit(std::size_t index, Vec2 position_sample,
         if (back) start.normal = -start.normal;
     }
     if (!is_there(source, start)) return {};
-    const SurfacePoint point = shading_.point(source.shape, start.primitive, start.u, start.v);
+    const SurfacePoint point = shading_.point(source.shape, start.primitive, start.u, start.v, time);
     const Vec3 direction = Frame::around(start.normal).to_world(cosine_hemisphere(direction_sample));
     return Emission{point.origin_towards(direction), direction, radiance_at(source, start) * (pi * area * sides),
                     source.group};

@@ -15,6 +15,7 @@
 #include "core/scene/lamps/ball_lamp.hpp"
 #include "core/scene/lamps/lamp_balls.hpp"
 #include "core/scene/lamps/light_tree.hpp"
+#include "core/scene/lamps/lit_point.hpp"
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
@@ -33,7 +34,7 @@ public:
 
     std::size_t size() const { return source_of_.size(); }
     /// A point on a lamp that is chosen for certain. None: it sends no light this way.
-    std::optional<LightSample> sample(std::size_t lamp, Vec3 from, Vec2 u) const;
+    std::optional<LightSample> sample(std::size_t lamp, const LitPoint& from, Vec2 u) const;
     /// Fetches what sample() will read of some lamps from memory.
     void expect(std::span<const LightChoice> chosen) const;
     /// A uniform triangle or parallelogram, or a uniform ball, which many points can look at at once; or nothing of
@@ -59,7 +60,7 @@ public:
     /// All that the lamp emits, W; of a textured one, nearly.
     Rgb power(std::size_t lamp) const;
     /// Light leaving the lamp: uniform by area, by the cosine in direction; flux as if it were the only light.
-    std::optional<Emission> emit(std::size_t lamp, Vec2 position_sample, Vec2 direction_sample) const;
+    std::optional<Emission> emit(std::size_t lamp, Vec2 position_sample, Vec2 direction_sample, ShutterTime time) const;
     std::size_t memory() const;
 
 private:
@@ -83,6 +84,7 @@ private:
         const Source& source;
         std::uint32_t triangle;  // which, where each is a lamp
         float area;
+        ShutterTime time;
     };
     /// A point on a lamp.
     struct PointOnLamp {
@@ -95,19 +97,29 @@ private:
         PointOnLamp point;
         float area;
     };
+    void add(std::uint32_t shape, const MovingShape& moving);
     void add(std::uint32_t shape, const Mesh* mesh);
     void add(std::uint32_t shape, const Sphere* ball);
     void add(std::uint32_t shape, const PlacedQuadric& quadric);
     static std::optional<Facet> parallelogram(const Facet& first, const Facet& second);
     void add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32_t facets);
-    /// Calls `use` with the shape that it is.
+    /// Calls `use` with the shape that it is at a time.
     template <class Use>
-    auto on_shape(const Source& source, const Use& use) const {
+    auto on_shape(const Source& source, ShutterTime time, const Use& use) const {
+        if (const MovingShape* moving = shading_.moving(source.shape))
+            return moving->placed(part_of_shutter(time), use);
         return std::visit(use, shading_.placed(source.shape));
     }
+    template <class Use>
+    auto on_shape(const Lamp& lamp, const Use& use) const {
+        return on_shape(lamp.source, lamp.time, use);
+    }
+    /// with(lamp) at each step of its shape's motion; of one that stands still, once.
+    template <class With>
+    void at_each_step(std::size_t lamp, const With& with) const;
     /// Of what is one lamp for each triangle.
     const Mesh& mesh_of(const Source& source) const { return *std::get<const Mesh*>(shading_.placed(source.shape)); }
-    Lamp lamp(std::size_t index) const;
+    Lamp lamp(std::size_t index, ShutterTime time) const;
     Rgb mean_of_texture(const Lamp& lamp) const;
     Rgb texture_at(std::uint32_t shape, std::uint32_t primitive, float u, float v) const;
     Rgb radiance_at(const Source& source, const PointOnLamp& point) const;

@@ -29,12 +29,9 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
       environment_group_(groups_ > 1 ? data.environment_group : 0),
       lamps_(data, shading, wanted.groups, groups_ > 1) {
     const auto is_wanted = [&](std::uint32_t group) { return (wanted.groups >> group & 1) != 0; };
-    for (const auto& light : data.lights) {
-        if (!std::visit([&](const auto& one) { return is_wanted(one.label.group); }, light)) continue;
-        if (const auto* directional = std::get_if<DirectionalLight>(&light)) far_.add(*directional, groups_ > 1);
-        if (const auto* spot = std::get_if<SpotLight>(&light)) near_.push_back(near_light_of(*spot));
-        if (const auto* point = std::get_if<PointLight>(&light)) near_.push_back(near_light_of(*point));
-    }
+    for (std::size_t i = 0; i < data.lights.size(); ++i)
+        if (std::visit([&](const auto& one) { return is_wanted(one.label.group); }, data.lights[i]))
+            add(data.lights[i], SceneMotion::steps_after(data.motion.lights, i));
     std::vector<double> light_of_maps;
     for (const auto& each : data.environments) {
         if (!is_wanted(data.environment_group)) break;
@@ -57,12 +54,37 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
     prefix_cdf(by_power, power_ends_);
 }
 
+void Lights::add(const BareLight& light, std::span<const BareLight> later) {
+    if (const auto* directional = std::get_if<DirectionalLight>(&light)) return far_.add(*directional, groups_ > 1);
+    if (const auto* spot = std::get_if<SpotLight>(&light)) near_.push_back(near_light_of(*spot));
+    if (const auto* point = std::get_if<PointLight>(&light)) near_.push_back(near_light_of(*point));
+    if (later.empty()) return;
+    moving_near_.resize(near_.size());
+    moving_near_.back().emplace(light, later);
+}
+
+LightBounds Lights::bounds_of_near(std::size_t light) const {
+    if (light < moving_near_.size() && moving_near_[light]) return moving_near_[light]->bounds();
+    return std::visit([](const auto& one) { return bounds_of(one); }, near_[light]);
+}
+
+std::optional<LightSample> Lights::from_near(std::size_t light, const LitPoint& from) const {
+    const bool moves = light < moving_near_.size() && moving_near_[light];
+    return std::visit(
+        [&](const auto& one) {
+            auto found = moves ? moving_near_[light]->from(from.position, from.time) : light_from(one, from.position);
+            if (found) found->group = group(one.label);
+            return found;
+        },
+        near_[light]);
+}
+
 void Lights::build_tree() {
     std::vector<LightBounds> bounds(lamps_.size());
     parallel_for(lamps_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) bounds[i] = lamps_.bounds(i);
     });
-    for (const auto& light : near_) bounds.push_back(std::visit([](const auto& l) { return bounds_of(l); }, light));
+    for (std::size_t i = 0; i < near_.size(); ++i) bounds.push_back(bounds_of_near(i));
     const auto in_tree =
         std::size_t(std::count_if(bounds.begin(), bounds.end(), [](const auto& b) { return b.intensity > 0; }));
     tree_ = LightTree(bounds);
@@ -79,25 +101,19 @@ void Lights::build_tree() {
 }
 
 std::optional<LightSample> Lights::sample(const LitPoint& from, float choice, Vec2 u) const {
-    if (only_lamp_) return lamps_.sample(*only_lamp_, from.position, u);
+    if (only_lamp_) return lamps_.sample(*only_lamp_, from, u);
     return takes_tree(choice) ? from_tree(from, choice, u) : from_beside(from.position, choice, u);
 }
 
 std::optional<LightSample> Lights::from_tree(const LitPoint& from, float choice, Vec2 u) const {
     float place = place_in_tree(choice);
     const auto chosen = tree_.choose(from, place);
-    return chosen ? from_chosen(*chosen, from.position, u) : std::nullopt;
+    return chosen ? from_chosen(*chosen, from, u) : std::nullopt;
 }
 
-std::optional<LightSample> Lights::from_chosen(const LightChoice& chosen, Vec3 from, Vec2 u) const {
+std::optional<LightSample> Lights::from_chosen(const LightChoice& chosen, const LitPoint& from, Vec2 u) const {
     const std::size_t light = chosen.light;
-    const auto from_near = [&](const auto& one) {
-        auto found = light_from(one, from);
-        if (found) found->group = group(one.label);
-        return found;
-    };
-    auto sample =
-        light < lamps_.size() ? lamps_.sample(light, from, u) : std::visit(from_near, near_[light - lamps_.size()]);
+    auto sample = light < lamps_.size() ? lamps_.sample(light, from, u) : from_near(light - lamps_.size(), from);
     if (sample) sample->pdf = sample->pdf * chosen.chance * share_of_tree_;
     return sample;
 }
@@ -245,7 +261,7 @@ void Lights::sample_chosen(const PointsAsked& some, std::span<const LightChoice>
         else if (const auto* ball = std::get_if<BallLamp>(known))
             on_balls.add(asked, *ball);
         else
-            samples.set(asked.who, one.chance > 0 ? from_chosen(one, asked.from, asked.u) : std::nullopt);
+            samples.set(asked.who, one.chance > 0 ? from_chosen(one, some.from[k], asked.u) : std::nullopt);
     }
     on_flat.find(share_of_tree_, samples);
     on_balls.find(share_of_tree_, samples);
@@ -318,6 +334,7 @@ std::optional<SeenSun> Lights::sun(Vec3 direction) const {
 Rgb Lights::power(std::size_t light) const {
     if (light < lamps_.size()) return lamps_.power(light);
     light -= lamps_.size();
+    if (light < moving_near_.size() && moving_near_[light]) return moving_near_[light]->power();
     if (light < near_.size()) return std::visit([](const auto& l) { return power_of(l); }, near_[light]);
     light -= near_.size();
     const float disk = pi * around_.radius * around_.radius;
@@ -333,7 +350,8 @@ Rgb Lights::power() const {
     return sum;
 }
 
-std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 direction_sample) const {
+std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 direction_sample,
+                                     ShutterTime time) const {
     if (power_ends_.empty()) return {};
     std::size_t light = pick(power_ends_, choice);
     const float chance = share_of(power_ends_, light);
@@ -343,13 +361,19 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
         return one;
     };
     if (light < lamps_.size()) {
-        const auto one = lamps_.emit(light, position_sample, direction_sample);
+        const auto one = lamps_.emit(light, position_sample, direction_sample, time);
         return one ? std::optional(weighted(*one, one->group)) : std::nullopt;
     }
     light -= lamps_.size();
-    if (light < near_.size())
-        return std::visit([&](const auto& l) { return weighted(emission_of(l, direction_sample), group(l.label)); },
-                          near_[light]);
+    if (light < near_.size()) {
+        const bool moves = light < moving_near_.size() && moving_near_[light];
+        const auto from_near = [&](const auto& l) {
+            return weighted(
+                moves ? moving_near_[light]->emission(direction_sample, time) : emission_of(l, direction_sample),
+                group(l.label));
+        };
+        return std::visit(from_near, near_[light]);
+    }
     light -= near_.size();
     if (light < far_.size()) {
         const Vec3 along = far_.shines_along(light, direction_sample);

@@ -16,6 +16,7 @@
 #include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/lamps/lit_point.hpp"
+#include "core/scene/lamps/moving_light.hpp"
 #include "core/scene/lamps/suns.hpp"
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
@@ -89,7 +90,7 @@ public:
 
     /// Light leaving one of all lights, chosen by power; what comes from infinity goes into the ball around the scene.
     /// None: nothing leaves by this sample.
-    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample) const;
+    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time) const;
     /// All that is emitted, W: by lamps, nearly where they are textured; from infinity, into that ball.
     Rgb power() const;
 
@@ -101,7 +102,10 @@ private:
     void build_tree();
     Rgb power(std::size_t light) const;
     std::optional<LightSample> from_tree(const LitPoint& from, float choice, Vec2 u) const;
-    std::optional<LightSample> from_chosen(const LightChoice& chosen, Vec3 from, Vec2 u) const;
+    std::optional<LightSample> from_chosen(const LightChoice& chosen, const LitPoint& from, Vec2 u) const;
+    std::optional<LightSample> from_near(std::size_t light, const LitPoint& from) const;
+    LightBounds bounds_of_near(std::size_t light) const;
+    void add(const BareLight& light, std::span<const BareLight> later);
     std::optional<LightSample> from_beside(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_map(Vec3 from, float choice, Vec2 u) const;
@@ -126,7 +130,8 @@ private:
     std::size_t groups_;
     std::uint32_t environment_group_;
     AreaLamps lamps_;
-    std::vector<NearLight> near_;  // points and spots
+    std::vector<NearLight> near_;                          // points and spots
+    std::vector<std::optional<MovingLight>> moving_near_;  // by those, where any moves
     Suns far_;
     std::vector<Environment> environments_;
     std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled, as they have a map or a portal

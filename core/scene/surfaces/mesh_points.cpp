@@ -56,6 +56,7 @@ SurfacePoint MeshPoints::point(std::size_t i) const {
     point.primitive = hits_[i].primitive;
     point.u = u_[i];
     point.v = v_[i];
+    point.time = hits_[i].time;
     return point;
 }
 

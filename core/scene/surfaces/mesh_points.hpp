@@ -40,6 +40,7 @@ public:
     /// By bumps, too, which those of point() don't follow.
     Vec3 shading(std::size_t i) const { return shading_[i]; }
     Vec3 outgoing(std::size_t i) const { return outgoing_[i]; }
+    ShutterTime time(std::size_t i) const { return hits_[i].time; }
     /// As of one alone; but the point knows nothing of textures.
     SurfacePoint point(std::size_t i) const;
 
@@ -48,7 +49,7 @@ public:
     Vec2 numbers(std::size_t i) const { return numbers_[i]; }
 
     [[gnu::always_inline]] Ray ray_from(std::size_t i, Vec3 direction) const {
-        return {off_surface(position_[i], normal_[i], offset_[i], direction), direction};
+        return {off_surface(position_[i], normal_[i], offset_[i], direction), direction, Ray().far, hits_[i].time};
     }
 
 protected:

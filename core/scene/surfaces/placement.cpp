@@ -13,12 +13,22 @@ float largest(Vec3 v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fa
 }  // namespace
 
 Placement::Placement(const Matrix& to_world, Unchecked) {
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column) columns_[3 * column + row] = float(to_world.m[row][column]);
+    invert();
+}
+
+Placement::Placement(const Placement& before, const Placement& after, float part) {
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+        columns_[i] = before.columns_[i] * (1 - part) + after.columns_[i] * part;
+    invert();
+    if (!fault().empty()) *this = before;
+}
+
+void Placement::invert() {
     double a[3][3];
     for (std::size_t row = 0; row < 3; ++row)
-        for (std::size_t column = 0; column < 4; ++column) {
-            columns_[3 * column + row] = float(to_world.m[row][column]);
-            if (column < 3) a[row][column] = columns_[3 * column + row];
-        }
+        for (std::size_t column = 0; column < 3; ++column) a[row][column] = columns_[3 * column + row];
     // By cofactors: its rows are the cross products of the columns, over the determinant.
     const auto minor = [&](std::size_t i, std::size_t j) {
         const std::size_t r = (j + 1) % 3, s = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;

@@ -15,6 +15,8 @@ class Placement {
 public:
     /// Throws Error when the transform can't be inverted.
     explicit Placement(const Matrix& to_world);
+    /// Between two, each number evenly, as Embree does it. What can't be inverted there is as it was before.
+    Placement(const Placement& before, const Placement& after, float part);
     /// Why it can't be one; "": it can.
     static std::string fault(const Matrix& to_world);
 
@@ -32,6 +34,7 @@ public:
 private:
     struct Unchecked {};
     Placement(const Matrix& to_world, Unchecked);
+    void invert();
     std::string fault() const;
     double largest_stretch() const;
     Vec3 direction_to_world(Vec3 v) const;

@@ -17,10 +17,10 @@ namespace lightnet {
 namespace {
 
 // A ray that leaves one triangle may pass close above all others of the mesh.
-float longest_edge(const Mesh& mesh) {
+float longest_edge(const std::vector<std::array<std::uint32_t, 3>>& triangles, const std::vector<Vec3>& positions) {
     float square = 0;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Corners at = corners(mesh, t);
+    for (const auto& [a, b, c] : triangles) {
+        const Corners at{positions[a], positions[b], positions[c]};
         const Vec3 ab = at.b - at.a, bc = at.c - at.b, ca = at.a - at.c;
         square = std::max({square, length_squared(ab), length_squared(bc), length_squared(ca)});
     }
@@ -28,7 +28,7 @@ float longest_edge(const Mesh& mesh) {
 }
 
 // What a shape's size rounds, wherever it stands.
-float least_offset(const Mesh* mesh) { return triangle_offset(longest_edge(*mesh)); }
+float least_offset(const Mesh* mesh) { return triangle_offset(longest_edge(mesh->triangles, mesh->positions)); }
 float least_offset(const Sphere* sphere) { return ball_offset(sphere->radius); }
 float least_offset(const PlacedQuadric&) { return 0; }  // it has one for each point
 
@@ -133,6 +133,45 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
             by_place(data.materials[shape.material].opacity) || (shape.emission && by_place(shape.emission->texture));
         column_shapes_.push_back(column_shape(shape, needs_.back()));
     }
+    take_motion();
+}
+
+// What moves is worked out point by point.
+void Shading::take_motion() {
+    for (const auto& [which, later] : data_.motion.shapes) {
+        const MovingShape& moving = moving_.emplace_back(data_.shapes[which].geometry, later);
+        Needs& needs = needs_[which];
+        needs.moving = std::uint32_t(moving_.size() - 1);
+        column_shapes_[which].kind = ColumnShape::Kind::none;
+        for (std::size_t step = 0; needs.mesh && step < moving.steps(); ++step) {
+            const auto& positions = std::get<Mesh>(moving.at_step(step)).positions;
+            needs.offset = std::max(needs.offset, triangle_offset(longest_edge(needs.mesh->triangles, positions)));
+        }
+        for (const auto& state : later)
+            if (const auto* ball = std::get_if<Sphere>(&state))
+                needs.offset = std::max(needs.offset, ball_offset(ball->radius));
+        needs.offset += moving.rounding();
+    }
+    if (data_.motion.instances.empty()) return;
+    moved_instances_.resize(placements_.size(), none);
+    for (const auto& [which, later] : data_.motion.instances) {
+        moved_instances_[which] = std::uint32_t(moved_placements_.size());
+        auto& places = moved_placements_.emplace_back();
+        for (const Matrix& to_world : later) places.emplace_back(to_world);
+    }
+}
+
+std::span<const Placement> Shading::later_placements(std::uint32_t instance) const {
+    if (moved_instances_.empty() || moved_instances_[instance] == none) return {};
+    return moved_placements_[moved_instances_[instance]];
+}
+
+Placement Shading::placement(const Hit& hit) const {
+    const auto later = later_placements(hit.instance);
+    const Placement& first = placements_[hit.instance];
+    if (later.empty()) return first;
+    const StepPlace place(later.size() + 1, hit.time);
+    return {place.step == 0 ? first : later[place.step - 1], later[place.step], place.part};
 }
 
 ColumnShape Shading::column_shape(const Shape& shape, const Needs& needs) const {
@@ -161,14 +200,17 @@ void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, flo
     point.u = u;
     point.v = v;
     const Needs& needs = needs_[geometry];
+    if (needs.moving != none) return find_moving(moving_[needs.moving], needs, point);
     if (needs.mesh) return find_on(needs.mesh, needs, point);  // first, as nearly all are
     std::visit([&](const auto& shape) { find_on(shape, needs, point); }, placed_[geometry]);
 }
 
 void Shading::find(const Hit& hit, SurfacePoint& point) const {
+    point.time = hit.time;
     find(hit.geometry, hit.primitive, hit.u, hit.v, point);
     if (hit.instance == Query::no_instance) return;
-    point = placements_[hit.instance].place(point);
+    const bool moves = !later_placements(hit.instance).empty();
+    point = moves ? placement(hit).place(point) : placements_[hit.instance].place(point);
     if (needs_[hit.geometry].material.grooves) point.shading = frame_along(point.shading.z, point.along_u);
 }
 
@@ -189,21 +231,36 @@ void Shading::expect(std::span<const std::optional<Hit>> hits) const {
 
 void Shading::find_on(const Mesh* on, const Needs& needs, SurfacePoint& point) const {
     const Mesh& mesh = *on;
-    const Corners at = corners(mesh, point.primitive);
-    Vec3 interpolated;
+    Standing triangle{corners(mesh, point.primitive), {}, needs.turned.empty() ? 0 : needs.turned[point.primitive]};
     if (!mesh.normals.empty()) {
         const auto [i, j, k] = mesh.triangles[point.primitive];
-        interpolated = between_corners({mesh.normals[i], mesh.normals[j], mesh.normals[k]}, point.u, point.v);
+        triangle.normals = {mesh.normals[i], mesh.normals[j], mesh.normals[k]};
     }
-    point.position = on_triangle(at, point.u, point.v);
-    point.normal = geometric_normal(mesh, point.primitive, at);
-    const float turned = needs.turned.empty() ? 0 : needs.turned[point.primitive];
-    point.offset = triangle_offset_at(turned, point.position, point.normal, needs.offset);
-    point.shading = Frame::around(shading_normal(interpolated, point.normal));
-    dress(mesh, needs, point);
+    find_on(mesh, triangle, needs, point);
 }
 
-void Shading::dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const {
+void Shading::find_moving(const MovingShape& shape, const Needs& needs, SurfacePoint& point) const {
+    if (needs.mesh) {
+        const Corners at = shape.corners(point.primitive, point.time);
+        const Standing triangle{at, shape.normals(point.primitive, point.time), turned_offset(at)};
+        return find_on(*needs.mesh, triangle, needs, point);
+    }
+    shape.placed(part_of_shutter(point.time), [&](const auto& placed) { find_on(placed, needs, point); });
+    if (std::holds_alternative<Quadric>(shape.at_step(0))) point.offset += needs.offset;
+}
+
+void Shading::find_on(const Mesh& mesh, const Standing& triangle, const Needs& needs, SurfacePoint& point) const {
+    const auto& [at, normals, turned] = triangle;
+    point.position = on_triangle(at, point.u, point.v);
+    point.normal = mesh.normals.empty() ? geometric_normal(at, {}, mesh.flip_normals)
+                                        : geometric_normal(at, normals.a + normals.b + normals.c, false);
+    point.offset = triangle_offset_at(turned, point.position, point.normal, needs.offset);
+    const Vec3 interpolated = mesh.normals.empty() ? Vec3{} : between_corners(normals, point.u, point.v);
+    point.shading = Frame::around(shading_normal(interpolated, point.normal));
+    dress(mesh, at, needs, point);
+}
+
+void Shading::dress(const Mesh& mesh, const Corners& at, const Needs& needs, SurfacePoint& point) const {
     const auto& [texture, tangent, grooves, holes] = needs.material;
     if (!texture && !tangent) return;
     const auto [a, b, c] = uvs_of(mesh, point.primitive);
@@ -216,7 +273,7 @@ void Shading::dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) c
         point.vertex_colour = mesh.colours[i] * w + mesh.colours[j] * u + mesh.colours[k] * v;
     }
     if (!tangent) return;
-    const auto along = along_triangle(corners(mesh, point.primitive), a, b, c);
+    const auto along = along_triangle(at, a, b, c);
     point.along_u = along.u;
     point.along_v = along.v;
     if (grooves) point.shading = frame_along(point.shading.z, along.u);

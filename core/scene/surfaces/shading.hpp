@@ -12,6 +12,7 @@
 #include "core/scene/shapes/shape.hpp"
 #include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/materials.hpp"
+#include "core/scene/surfaces/moving_shape.hpp"
 #include "core/scene/surfaces/placement.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/textures/look_up.hpp"
@@ -25,8 +26,9 @@ public:
     explicit Shading(const SceneData& data);
 
     /// The point with these coordinates (see Query) on a primitive of a shape, as the shape was made.
-    SurfacePoint point(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {
+    SurfacePoint point(std::uint32_t geometry, std::uint32_t primitive, float u, float v, ShutterTime time = 0) const {
         SurfacePoint point;
+        point.time = time;
         find(geometry, primitive, u, v, point);
         return point;
     }
@@ -34,8 +36,14 @@ public:
     void find(const Hit& hit, SurfacePoint& point) const;
     /// The shading normal there by bumps, if the shape has any.
     Vec3 bumpy_normal(const SurfacePoint& point) const;
-    /// By instance.
+    /// By instance; of one that moves, where it stands at first.
     std::span<const Placement> placements() const { return placements_; }
+    /// Of an instance that moves, its places at later steps; of others none.
+    std::span<const Placement> later_placements(std::uint32_t instance) const;
+    /// How a shape moves; null: it stands still.
+    const MovingShape* moving(std::uint32_t geometry) const {
+        return needs_[geometry].moving == none ? nullptr : &moving_[needs_[geometry].moving];
+    }
     /// Fetches what find() will read of them from memory.
     void expect(std::span<const std::optional<Hit>> hits) const;
     Bsdf bsdf(const SurfacePoint& point) const;
@@ -74,12 +82,14 @@ public:
     bool is_there(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const;
 
 private:
+    static constexpr std::uint32_t none = 0xffffffffu;
     struct Needs {
         MaterialNeeds material;
         float offset = 0;             // least distance by which rays must leave the shape, m
         const Mesh* mesh = nullptr;   // null: the shape is another
         std::uint8_t lobes = 0;       // 0: not the same everywhere
         bool place = false;           // textures of opacity or emission depend on where a point is
+        std::uint32_t moving = none;  // into moving_
         std::vector<float> turned{};  // by triangle: see triangle_offset_at(); empty: none is more than `offset`
     };
     void find(std::uint32_t geometry, std::uint32_t primitive, float u, float v, SurfacePoint& point) const;
@@ -87,13 +97,25 @@ private:
     void find_on(const Mesh* mesh, const Needs& needs, SurfacePoint& point) const;
     void find_on(const Sphere* sphere, const Needs& needs, SurfacePoint& point) const;
     void find_on(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const;
+    void find_moving(const MovingShape& shape, const Needs& needs, SurfacePoint& point) const;
+    /// A triangle as it stands at some time.
+    struct Standing {
+        Corners at, normals;  // no shading normals: nothing
+        float turned;         // see triangle_offset_at()
+    };
+    void find_on(const Mesh& mesh, const Standing& triangle, const Needs& needs, SurfacePoint& point) const;
     /// Adds what textures, grooves and bumps need.
-    void dress(const Mesh& mesh, const Needs& needs, SurfacePoint& point) const;
+    void dress(const Mesh& mesh, const Corners& at, const Needs& needs, SurfacePoint& point) const;
+    Placement placement(const Hit& hit) const;
+    void take_motion();
 
     const SceneData& data_;
     Materials materials_;
     std::vector<Placement> placements_;  // by instance
-    std::vector<Needs> needs_;           // by shape
+    std::vector<MovingShape> moving_;
+    std::vector<std::vector<Placement>> moved_placements_;  // of instances that move
+    std::vector<std::uint32_t> moved_instances_;            // by instance, where any moves: into those, or none
+    std::vector<Needs> needs_;                              // by shape
     std::vector<ColumnShape> column_shapes_;
     std::vector<PlacedShape> placed_;  // by shape
 };

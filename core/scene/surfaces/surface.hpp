@@ -8,6 +8,7 @@
 #include "core/base/math/vec.hpp"
 #include "core/base/query.hpp"
 #include "core/scene/shapes/offset.hpp"
+#include "core/scene/shapes/ray.hpp"
 #include "core/scene/textures/look_up.hpp"
 
 namespace lightnet {
@@ -24,12 +25,15 @@ struct SurfacePoint {
     Vec3 along_u, along_v;       // ∂position/∂u and ∂position/∂v, metres
     std::uint32_t geometry = 0;  // index into the scene's shapes; Query::in_space: the point is on none
     std::uint32_t primitive = 0;
-    float u = 0, v = 0;  // on the primitive, as in its Hit
-    float offset = 0;    // metres: beyond the rounding errors of `position`
+    float u = 0, v = 0;    // on the primitive, as in its Hit
+    float offset = 0;      // metres: beyond the rounding errors of `position`
+    ShutterTime time = 0;  // at which it is there
 
     bool is_in_space() const { return geometry == Query::in_space; }
     /// Where a ray into `direction` starts: off the surface, on the side into which it goes.
     Vec3 origin_towards(Vec3 direction) const;
+    /// The ray from there.
+    Ray ray_towards(Vec3 direction) const { return {origin_towards(direction), direction, Ray().far, time}; }
 };
 
 /// What its textures may depend on.
