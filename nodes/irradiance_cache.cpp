@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/math/samples.hpp"
 #include "core/estimate/even_scattering.hpp"
 #include "core/estimate/gather.hpp"
 #include "core/estimate/hemisphere.hpp"
@@ -226,16 +227,6 @@ private:
     static constexpr double most_times = 4;
     static constexpr double records_beside = 4;  // what is seen of one is between others, whose noise is their own
 
-    // A record holds while the shutter is open, so its rays are spread over that; those of a surface that moves hold
-    // for where that was when it was asked about.
-    // DECISIONS: blur-is-in-the-question
-    void spread_over_shutter(const Query& question, Key stream, std::span<GatherRay> rays) const {
-        const bool still = question.is_in_space() || !scene_.moves(scene_.hit(question));
-        for (std::uint32_t i = 0; i < rays.size(); ++i)
-            rays[i].ray.time =
-                still ? time_in_shutter(Samples(child(stream, key_of("shutter")), i).next()) : question.time;
-    }
-
     // What rays find all around each point, a result for each group of lamps side by side. `trial`: 0, it counts.
     std::vector<GatherResult> looked_around(std::span<const Query> questions, std::span<const Wanted> wanted,
                                             const Hemisphere& hemisphere, Key trial) const {
@@ -248,8 +239,10 @@ private:
             const std::size_t before = rays.size();
             hemisphere.add_rays(wanted[i].side.origin, wanted[i].side.normal,
                                 trial ? child(own, key_of("trial"), trial) : own, question.depth, rays);
-            for (std::size_t r = before; r < rays.size(); ++r) rays[r].pass = question.pass;
-            if (scene_.moves()) spread_over_shutter(question, own, std::span(rays).subspan(before));
+            const bool spread = scene_.moves() && !scene_.moves(scene_.hit(question));  // it holds while all moves
+            for (GatherRay& ray : std::span(rays).subspan(before))
+                ray.pass = question.pass,
+                ray.ray.time = spread ? time_in_shutter(Samples(own, ray.sample, 2).next()) : question.time;
         }
         std::vector<GatherResult> results(rays.size() * groups_);
         gather(scene_, inputs_, 0, rays, results);

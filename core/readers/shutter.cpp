@@ -127,6 +127,7 @@ bool straight(const BareLight& a, const BareLight& b, const BareLight& there) {
 }
 
 /// Reads moments, and sets what moves beside what it was at first.
+// DECISIONS: blur-is-in-the-question
 class ShutterReader {
 public:
     ShutterReader(const std::function<SceneData(double)>& read_at, const ShutterSpan& shutter, const std::string& file)

@@ -226,6 +226,7 @@ struct Geometry::Tracer {
             steps.emplace_back(later);
         for (const Placement& placement : steps)
             farthest = std::clamp(float(placement.farthest_outside(1e18)), 0.0f, farthest);
+        alone |= steps.size() > 1;
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, objects[instance.object]);
         rtcSetGeometryTimeStepCount(geometry, unsigned(steps.size()));
@@ -266,6 +267,8 @@ struct Geometry::Tracer {
     std::vector<RTCGeometry> geometries;  // by shape; null: never to be met
     std::vector<RTCScene> objects;        // the same
     bool eight;                           // rays are traced at once; else four
+    bool alone = false;                   // all are: Embree turns around the transforms of instances that move, which
+                                          // it does for packets with other roundings
     float farthest = 1e17f;               // coordinate of rays, which instances may stretch; Embree's own is 1.8e18
 };
 
@@ -340,6 +343,10 @@ std::optional<Hit> Geometry::intersect(const Ray& ray) const {
 
 void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
     assert(rays.size() == hits.size() && "each ray has its hit");
+    if (tracer_->alone) {
+        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i]);
+        return;
+    }
     count(rays.size());
     tracer_->eight ? tracer_->meet<Eight>(rays, hits) : tracer_->meet<Four>(rays, hits);
 }
@@ -355,6 +362,10 @@ bool Geometry::occluded(const Ray& ray) const {
 
 void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
     assert(rays.size() == hidden.size() && "each ray has its answer");
+    if (tracer_->alone) {
+        for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occluded(rays[i]);
+        return;
+    }
     count(rays.size());
     tracer_->eight ? look_through<Eight>(tracer_->scene, tracer_->farthest, rays, hidden)
                    : look_through<Four>(tracer_->scene, tracer_->farthest, rays, hidden);
