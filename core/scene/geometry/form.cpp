@@ -17,14 +17,32 @@ namespace {
 
 const Form& form_of(void* pointer) { return *static_cast<const Form*>(pointer); }
 
+Vec3 normal_of(RTCHitN* hit, unsigned n, unsigned i) {
+    return {RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i)};
+}
+
+TrianglePoint point_of(const Form& form, RTCHitN* hit, unsigned n, unsigned i) {
+    return form.point(RTCHitN_primID(hit, n, i), {RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i)}, normal_of(hit, n, i));
+}
+
 // Lets rays through the holes of meshes.
 void pass_holes(const RTCFilterFunctionNArguments* args) {
     const Form& form = form_of(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
-        const TrianglePoint point = form.point(RTCHitN_primID(args->hit, args->N, i),
-                                               {RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)});
-        if (!form.is_there(point)) args->valid[i] = 0;
+        if (!form.is_there(point_of(form, args->hit, args->N, i))) args->valid[i] = 0;
+    }
+}
+
+// Lets rays through the inside of curves, and through holes.
+void pass_inside(const RTCFilterFunctionNArguments* args) {
+    const Form& form = form_of(args->geometryUserPtr);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] != -1) continue;
+        const Vec3 direction{RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
+                             RTCRayN_dir_z(args->ray, args->N, i)};
+        const bool outside = dot(direction, normal_of(args->hit, args->N, i)) < 0;
+        if (!outside || !form.is_there(point_of(form, args->hit, args->N, i))) args->valid[i] = 0;
     }
 }
 
@@ -217,6 +235,21 @@ RTCGeometry make(RTCDevice device, Sphere& sphere, Form& form) {
 RTCGeometry make(RTCDevice device, Quadric&, Form& form) {
     form.quadric = &std::get<PlacedQuadric>(form.shading->placed(form.shape));
     return round_geometry<PlacedQuadric>(device, quadric_bounds);
+}
+
+// A control point has 16 bytes, so that nothing needs to be padded.
+RTCGeometry make(RTCDevice device, Curves& curves, Form& form) {
+    form.curves = &curves;
+    const auto type = curves.basis == Curves::Basis::bezier ? RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE
+                                                            : RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE;
+    RTCGeometry geometry = rtcNewGeometry(device, type);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.points.data(), 0,
+                               sizeof(curves.points[0]), curves.points.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(), 0,
+                               sizeof(curves.segments[0]), curves.segments.size());
+    rtcSetGeometryIntersectFilterFunction(geometry, pass_inside);
+    rtcSetGeometryOccludedFilterFunction(geometry, pass_inside);
+    return geometry;
 }
 
 }  // namespace

@@ -21,10 +21,12 @@ struct Form {
     const Sphere* sphere = nullptr;          // or a mesh
     const PlacedQuadric* quadric = nullptr;  // the same
     const MovingShape* moving = nullptr;     // of what moves; null: it stands still
+    const Curves* curves = nullptr;          // the same
     Quads quads{};                           // of a mesh whose triangles are paired
 
-    /// Embree's name of a point as ours.
-    TrianglePoint point(std::uint32_t primitive, Vec2 at) const {
+    /// Embree's name of a point as ours. `normal` is Embree's, of any length, and of curves alone looked at.
+    TrianglePoint point(std::uint32_t primitive, Vec2 at, Vec3 normal) const {
+        if (curves) return {primitive, {at.x, across(curves->at(primitive, at.x), normal)}};
         return quads.empty() ? TrianglePoint{primitive, at} : quads.point(primitive, at);
     }
     bool is_there(const TrianglePoint& point) const {

@@ -248,12 +248,13 @@ struct Geometry::Tracer {
     }
 
     // Embree numbers the shapes of an object for itself.
-    Hit hit(unsigned instance, unsigned geometry, unsigned primitive, Vec2 at, float distance, ShutterTime time) const {
+    Hit hit(unsigned instance, unsigned geometry, unsigned primitive, Vec2 at, Vec3 normal, float distance,
+            ShutterTime time) const {
         if (instance != RTC_INVALID_GEOMETRY_ID) {
             instance -= unsigned(data.shapes.size());
             geometry = data.objects[data.instances[instance].object].shapes[geometry];
         }
-        const TrianglePoint point = forms[geometry].point(primitive, at);
+        const TrianglePoint point = forms[geometry].point(primitive, at, normal);
         return {instance, geometry, point.triangle, point.at.x, point.at.y, distance, time};
     }
     template <class Wide>
@@ -287,8 +288,9 @@ void Geometry::Tracer::meet(std::span<const Ray> rays, std::span<std::optional<H
             if (found.geomID[i] == RTC_INVALID_GEOMETRY_ID)
                 hits[first + i].reset();
             else
-                hits[first + i] = hit(found.instID[0][i], found.geomID[i], found.primID[i], {found.u[i], found.v[i]},
-                                      together.ray.tfar[i], rays[first + i].time);
+                hits[first + i] =
+                    hit(found.instID[0][i], found.geomID[i], found.primID[i], {found.u[i], found.v[i]},
+                        {found.Ng_x[i], found.Ng_y[i], found.Ng_z[i]}, together.ray.tfar[i], rays[first + i].time);
         }
     }
 }
@@ -338,7 +340,8 @@ std::optional<Hit> Geometry::intersect(const Ray& ray) const {
     rtcIntersect1(tracer_->scene, &query);
     const auto& hit = query.hit;
     if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return tracer_->hit(hit.instID[0], hit.geomID, hit.primID, {hit.u, hit.v}, query.ray.tfar, ray.time);
+    return tracer_->hit(hit.instID[0], hit.geomID, hit.primID, {hit.u, hit.v}, {hit.Ng_x, hit.Ng_y, hit.Ng_z},
+                        query.ray.tfar, ray.time);
 }
 
 void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {

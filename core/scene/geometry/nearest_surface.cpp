@@ -7,6 +7,7 @@
 
 #include <embree/rtcore.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -106,6 +107,22 @@ private:
             const SurfacePoint at = point(hit, placement);
             towards = wish_.position - at.normal * dot(wish_.position - at.position, at.normal);
         }
+    }
+
+    // Towards the nearest of some points of the middle line, and then of ever closer ones around it.
+    void put_on(Hit& hit, const Curves* curves, const Placement* placement) const {
+        const Vec3 from = placement ? placement->point_to_object(wish_.position) : wish_.position;
+        float nearest = 0.5f, best2 = std::numeric_limits<float>::infinity();
+        for (float step = 0.125f; step > 1e-6f; step /= 2) {
+            const float middle = nearest;
+            for (int i = -4; i <= 4; ++i) {
+                const float at = std::clamp(middle + float(i) * step, 0.0f, 1.0f);
+                const float way2 = length_squared(curves->at(hit.primitive, at).position - from);
+                if (way2 < best2) best2 = way2, nearest = at;
+            }
+        }
+        const OnCurve on = curves->at(hit.primitive, nearest);
+        hit.u = nearest, hit.v = across(on, from - on.position);
     }
 
     void compare(const Hit& hit, const SurfacePoint& at) {

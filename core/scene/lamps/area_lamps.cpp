@@ -62,6 +62,13 @@ float density(const PlacedQuadric& quadric, const Found& found) {
     return seen.pdf(found.direction, quadric.own_point({found.on.u, found.on.v}));
 }
 
+float density(const Curves* curves, const Found& found) {
+    const OnCurve middle = curves->at(found.on.primitive, found.on.u);
+    const float area = float(curves->pieces()) * surface_of(middle, found.on.v).stretch;
+    const float cosine = std::max(1e-6f, std::fabs(dot(found.on.normal, found.direction)));
+    return area > 0 ? found.way2() / (area * cosine) : 0;
+}
+
 }  // namespace
 
 AreaLamps::AreaLamps(const SceneData& data, const Shading& shading, GroupSet groups, bool apart)

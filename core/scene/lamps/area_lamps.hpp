@@ -24,9 +24,10 @@
 
 namespace lightnet {
 
-/// All shapes that emit light, cut into lamps: a sphere or quadric is one, and so is a mesh of a few triangles in one
-/// plane; of any other mesh each triangle is. A point on a mesh is uniform by area, on a sphere uniform within the cone
-/// that it fills, on a quadric as SeenQuadric has it. Any thread may ask.
+/// All shapes that emit light, cut into lamps: a sphere or quadric is one, all curves of a shape are one, and so is a
+/// mesh of a few triangles in one plane; of any other mesh each triangle is. A point on a mesh is uniform by area, on a
+/// sphere uniform within the cone that it fills, on a quadric as SeenQuadric has it, on curves by segment, parameter
+/// and turn. Any thread may ask.
 class AreaLamps {
 public:
     /// Those of some groups, which are told apart or are all one. Looks at data and shading while it lives.
@@ -101,6 +102,7 @@ private:
     void add(std::uint32_t shape, const Mesh* mesh);
     void add(std::uint32_t shape, const Sphere* ball);
     void add(std::uint32_t shape, const PlacedQuadric& quadric);
+    void add(std::uint32_t shape, const Curves* curves);
     static std::optional<Facet> parallelogram(const Facet& first, const Facet& second);
     void add_source(std::uint32_t shape, std::uint32_t lamps, std::uint32_t facets);
     /// Calls `use` with the shape that it is at a time.
@@ -128,21 +130,26 @@ private:
     float area(const Source& source, const Mesh* mesh) const;
     float area(const Source& source, const Sphere* ball) const;
     float area(const Source& source, const PlacedQuadric& quadric) const;
+    float area(const Source& source, const Curves* curves) const;
     EvenLamp even(const Lamp& lamp, const Mesh* mesh) const;
     EvenLamp even(const Lamp& lamp, const Sphere* ball) const;
     EvenLamp even(const Lamp& lamp, const PlacedQuadric& quadric) const;
+    EvenLamp even(const Lamp& lamp, const Curves* curves) const;
     static BallLamp ball_lamp(const Lamp& lamp, const Sphere& ball);
     static PointOnLamp on_sphere(const Sphere& ball, Vec3 outwards);
     static PointOnLamp on_quadric(const PlacedQuadric& quadric, Vec3 own);
     Start start(const Lamp& lamp, const Mesh* mesh, Vec2 u) const;
     Start start(const Lamp& lamp, const Sphere* ball, Vec2 u) const;
     Start start(const Lamp& lamp, const PlacedQuadric& quadric, Vec2 u) const;
+    Start start(const Lamp& lamp, const Curves* curves, Vec2 u) const;
     std::optional<LightSample> sample(const Lamp& lamp, const Mesh* mesh, Vec3 from, Vec2 u) const;
     std::optional<LightSample> sample(const Lamp& lamp, const Sphere* ball, Vec3 from, Vec2 u) const;
     std::optional<LightSample> sample(const Lamp& lamp, const PlacedQuadric& quadric, Vec3 from, Vec2 u) const;
+    std::optional<LightSample> sample(const Lamp& lamp, const Curves* curves, Vec3 from, Vec2 u) const;
     LightBounds bounds(const Lamp& lamp, const Mesh* mesh, float radiance) const;
     LightBounds bounds(const Lamp& lamp, const Sphere* ball, float radiance) const;
     LightBounds bounds(const Lamp& lamp, const PlacedQuadric& quadric, float radiance) const;
+    LightBounds bounds(const Lamp& lamp, const Curves* curves, float radiance) const;
 
     const SceneData& data_;
     const Shading& shading_;

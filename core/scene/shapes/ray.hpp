@@ -35,7 +35,8 @@ struct Hit {
     std::uint32_t instance = 0xffffffffu;
     std::uint32_t geometry = 0;
     std::uint32_t primitive = 0;
-    float u = 0, v = 0;    // barycentric; of spheres the octahedral normal; of quadrics as PlacedQuadric names
+    float u = 0, v = 0;    // barycentric; of spheres the octahedral normal; of quadrics and curves as PlacedQuadric and
+                           // Curves name
     float distance = 0;    // along the ray; not part of the name
     ShutterTime time = 0;  // of its ray
 };

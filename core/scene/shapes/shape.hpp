@@ -9,6 +9,7 @@
 
 #include "core/base/math/box.hpp"
 #include "core/base/math/transform.hpp"
+#include "core/scene/shapes/curves.hpp"
 #include "core/scene/shapes/mesh.hpp"
 #include "core/scene/shapes/placed_quadric.hpp"
 #include "core/scene/shapes/quadric.hpp"
@@ -19,7 +20,7 @@ namespace lightnet {
 /// The list. A new one goes to its end: the number of a shape in it is part of a scene's identity. What else there is
 /// to say of a shape stands where it is used, as overloads of one function without a catch-all, so that a shape that
 /// was forgotten there does not compile.
-using ShapeGeometry = std::variant<Mesh, Sphere, Quadric>;
+using ShapeGeometry = std::variant<Mesh, Sphere, Quadric, Curves>;
 
 /// What every shape of the list is, beside a list of its own members.
 ///   names: what several are called in words

@@ -31,6 +31,7 @@ float longest_edge(const std::vector<std::array<std::uint32_t, 3>>& triangles, c
 float least_offset(const Mesh* mesh) { return triangle_offset(longest_edge(mesh->triangles, mesh->positions)); }
 float least_offset(const Sphere* sphere) { return ball_offset(sphere->radius); }
 float least_offset(const PlacedQuadric&) { return 0; }  // it has one for each point
+float least_offset(const Curves*) { return 0; }         // the same
 
 float least_offset(const PlacedShape& shape) {
     return std::visit([](const auto& one) { return least_offset(one); }, shape);
@@ -113,6 +114,14 @@ TexturePlace coordinates_on(const Sphere* sphere, std::uint32_t, Vec2 at) {
 }
 TexturePlace coordinates_on(const PlacedQuadric& quadric, std::uint32_t, Vec2 at) {
     return {quadric.uv(quadric.own_point(at)), {1, 1, 1}};
+}
+
+Vec2 uv_on(const Curves& curves, std::uint32_t segment, Vec2 at) {
+    const auto [start, size] = curves.share(segment);
+    return {start + at.x * size, (at.y + 2) / 4};
+}
+TexturePlace coordinates_on(const Curves* curves, std::uint32_t primitive, Vec2 at) {
+    return {uv_on(*curves, primitive, at), {1, 1, 1}};
 }
 
 }  // namespace
@@ -310,6 +319,24 @@ void Shading::find_on(const PlacedQuadric& quadric, const Needs& needs, SurfaceP
     point.along_u = along_u;
     point.along_v = along_v;
     if (needs.material.grooves) point.shading = frame_along(point.normal, along_u);
+}
+
+// Embree's points lie on the circle nearly: how nearly goes with the radius.
+void Shading::find_on(const Curves* curves, const Needs& needs, SurfacePoint& point) const {
+    constexpr float nearly = 0x1p-10f;
+    const OnCurve middle = curves->at(point.primitive, point.u);
+    const CurveSurface at = surface_of(middle, point.v);
+    point.position = at.position;
+    point.normal = at.normal;
+    point.offset = offset_at(point.position, point.normal, nearly * middle.radius);
+    point.shading = Frame::around(point.normal);
+    if (!needs.material.texture && !needs.material.tangent) return;
+    point.uv = uv_on(*curves, point.primitive, {point.u, point.v});
+    point.vertex_colour = {1, 1, 1};
+    if (!needs.material.tangent) return;
+    point.along_u = at.along / curves->share(point.primitive).size;
+    point.along_v = at.around;
+    if (needs.material.grooves) point.shading = frame_along(point.normal, point.along_u);
 }
 
 TexturePlace Shading::place(std::uint32_t geometry, std::uint32_t primitive, float u, float v) const {

@@ -97,6 +97,7 @@ private:
     void find_on(const Mesh* mesh, const Needs& needs, SurfacePoint& point) const;
     void find_on(const Sphere* sphere, const Needs& needs, SurfacePoint& point) const;
     void find_on(const PlacedQuadric& quadric, const Needs& needs, SurfacePoint& point) const;
+    void find_on(const Curves* curves, const Needs& needs, SurfacePoint& point) const;
     void find_moving(const MovingShape& shape, const Needs& needs, SurfacePoint& point) const;
     /// A triangle as it stands at some time.
     struct Standing {
