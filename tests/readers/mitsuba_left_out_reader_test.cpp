@@ -224,7 +224,7 @@ TEST(MitsubaPlugins, ThatAreNotSupportedAreNamed) {
     for (const std::string type : {"hair", "measured_polarized", "pplastic", "polarizer", "hk", "irawan", "sssbrdf"})
         EXPECT_THAT(warnings_of(read("<shape type='sphere'><bsdf type='" + type + "'/></shape>")),
                     HasSubstr("bsdf '" + type + "' is not supported"));
-    for (const std::string type : {"heightfield", "hair", "sdfgrid", "bsplinecurve", "linearcurve", "deformable"})
+    for (const std::string type : {"heightfield", "hair", "sdfgrid", "deformable"})
         EXPECT_THAT(warnings_of(read(ball + "<shape type='" + type + "'/>")),
                     HasSubstr("shape '" + type + "' is not supported"));
     for (const std::string type : {"collimated", "directionalarea", "volumelight"})

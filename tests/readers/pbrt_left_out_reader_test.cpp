@@ -64,7 +64,6 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Shapes, EveryThingLeftOut,
     testing::Values(
-        LeftOut{"WorldBegin Shape \"curve\"", "'curve' are not supported and left out"},
         LeftOut{"WorldBegin Shape \"trianglemesh\"" + flat + "\"vector3 S\" [ 1 0 0 1 0 0 1 0 0 ]",
                 "tangents ('S') are left out"},
         LeftOut{"WorldBegin Shape \"plymesh\" \"string filename\" \"m.ply\" \"string displacement\" \"d\"",

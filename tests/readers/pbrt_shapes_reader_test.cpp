@@ -146,12 +146,6 @@ TEST(PbrtSubdivision, KeepsBoundariesWhereTheyAre) {
         HasSubstr("30 levels of subdivision would make more than 2^24 triangles"));
 }
 
-TEST(PbrtCurves, AreListedOnce) {
-    const auto scene = read_world("Shape \"curve\" \"float width\" 1 Shape \"curve\" Shape \"curve\"");
-    EXPECT_THAT(scene.shapes, IsEmpty());
-    EXPECT_EQ(warnings_of(scene), "scene.pbrt:2: shapes of type 'curve' are not supported and left out (3 times)\n");
-}
-
 TEST(PbrtSpheres, AreScaledAndMoved) {
     const auto scene = read_world("Translate 1 2 3 Scale 2 2 2 Rotate 30 1 1 0 Shape \"sphere\" \"float radius\" 1.5");
     expect_near(sphere_of(scene).center, {1, 2, 3});

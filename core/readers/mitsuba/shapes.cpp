@@ -11,6 +11,7 @@
 #include "core/readers/files/files.hpp"
 #include "core/readers/mitsuba/attributes.hpp"
 #include "core/readers/mitsuba/colours.hpp"
+#include "core/readers/mitsuba/curves.hpp"
 #include "core/readers/mitsuba/primitives.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
@@ -24,8 +25,9 @@ namespace {
 
 constexpr std::uint64_t most_triangles = std::uint64_t{1} << 30;
 
-const std::vector<std::string> known_shapes{"obj",  "ply",    "serialized", "rectangle", "cube",
-                                            "disk", "sphere", "cylinder",   "instance",  "shapegroup"};
+const std::vector<std::string> known_shapes{"obj",      "ply",        "serialized",   "rectangle",
+                                            "cube",     "disk",       "sphere",       "cylinder",
+                                            "instance", "shapegroup", "bsplinecurve", "linearcurve"};
 
 void turn_uvs(Mesh& mesh) {
     for (auto& uv : mesh.uvs) uv.y = 1 - uv.y;
@@ -94,6 +96,8 @@ std::optional<ShapeGeometry> Shapes::geometry(Properties& properties) {
         return stood(properties, disk, Matrix{});
     } else if (type == "cylinder") {
         return cylinder(properties);
+    } else if (type == "bsplinecurve" || type == "linearcurve") {
+        return curves(properties);
     } else {
         properties.ignore_all();
         context_.warn(properties.node(), fmt::format("shape '{}' is not supported{} and left out", type,
@@ -101,6 +105,26 @@ std::optional<ShapeGeometry> Shapes::geometry(Properties& properties) {
     }
     if (mesh) return *std::move(mesh);
     return std::nullopt;
+}
+
+std::optional<ShapeGeometry> Shapes::curves(Properties& properties) {
+    const Node* name = properties.find("filename");
+    const Matrix to_world = transform_of(properties);
+    properties.ignore({"silhouette_sampling_weight"});
+    if (!name) {
+        context_.error(properties.node(), fmt::format("{} needs a 'filename'", properties.owner()));
+        return std::nullopt;
+    }
+    const std::string path = context_.path(std::string(name->attribute("value")), *name);
+    const auto bytes = context_.assets.read(path, name->where);
+    if (!bytes) return std::nullopt;
+    try {
+        const std::string_view text(reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size());
+        return read_curves(text, properties.node().type == "linearcurve", to_world);
+    } catch (const Error& problem) {
+        context_.report().error({path, 0}, problem.what());
+        return std::nullopt;
+    }
 }
 
 /// Moves a mesh that has normals into the world; they decide on its sides.

@@ -30,6 +30,7 @@ private:
                                 std::vector<Rgb>& of_triangles);
     std::string attribute_of(const Node& shape) const;
     std::optional<ShapeGeometry> cylinder(Properties& properties);
+    std::optional<ShapeGeometry> curves(Properties& properties);
     std::optional<ShapeGeometry> stood(Properties& properties, Quadric quadric, const Matrix& own);
     std::optional<Mesh> placed(Properties& properties, Mesh mesh);
 

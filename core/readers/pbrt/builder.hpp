@@ -144,6 +144,7 @@ private:
     MaterialId filled(MaterialId material, const WaitingShape& waiting);
     void emit(Shape shape, const WaitingShape& waiting);
     void add_shape(Shape shape, const std::optional<std::uint32_t>& object);
+    bool add_to_curves(const Shape& shape);
     void finish_film();
 
     Sources sources_;
@@ -170,6 +171,7 @@ private:
     std::map<std::string, std::uint32_t> objects_;
     std::optional<std::uint32_t> open_object_;
     std::vector<WaitingShape> waiting_;
+    std::optional<std::uint32_t> joined_;  // the object of the last shape
 };
 
 }  // namespace lightnet::pbrt

@@ -181,8 +181,23 @@ void Builder::emit(Shape shape, const WaitingShape& waiting) {
 }
 
 void Builder::add_shape(Shape shape, const std::optional<std::uint32_t>& object) {
+    if (joined_ == object && add_to_curves(shape)) return;
+    joined_ = object;
     if (object) scene_.objects[*object].shapes.push_back(static_cast<std::uint32_t>(scene_.shapes.size()));
     scene_.shapes.push_back(std::move(shape));
+}
+
+/// Files have a statement for each hair. Those that follow each other and are alike become one shape.
+bool Builder::add_to_curves(const Shape& shape) {
+    const auto* more = std::get_if<Curves>(&shape.geometry);
+    if (!more || shape.emission || scene_.shapes.empty()) return false;
+    Shape& last = scene_.shapes.back();
+    auto* curves = std::get_if<Curves>(&last.geometry);
+    const auto sides = [](const Shape& of) { return of.media.value_or(MediumSides{}); };
+    const bool alike = curves && !last.emission && last.material == shape.material &&
+                       sides(last).inside == sides(shape).inside && sides(last).outside == sides(shape).outside;
+    if (alike) curves->append(*more);
+    return alike;
 }
 
 void Builder::finish_film() {

@@ -11,6 +11,7 @@
 
 #include "core/base/suggestion.hpp"
 #include "core/readers/files/gzip.hpp"
+#include "core/readers/pbrt/curves.hpp"
 #include "core/readers/pbrt/meshes.hpp"
 #include "core/readers/pbrt/older_shapes.hpp"
 #include "core/readers/pbrt/quadrics.hpp"
@@ -79,9 +80,13 @@ std::optional<Geometry> sphere(Parameters& parameters, const Placement& placemen
 using ShapeMaker = std::optional<Geometry> (*)(Parameters&, const Placement&);
 
 const std::map<std::string, ShapeMaker>& shape_makers() {
-    static const std::map<std::string, ShapeMaker> table{{"trianglemesh", triangles}, {"sphere", sphere},
-                                                         {"bilinearmesh", bilinear},  {"disk", disk},
-                                                         {"cylinder", cylinder},      {"loopsubdiv", subdivision}};
+    static const std::map<std::string, ShapeMaker> table{{"trianglemesh", triangles},
+                                                         {"sphere", sphere},
+                                                         {"bilinearmesh", bilinear},
+                                                         {"disk", disk},
+                                                         {"cylinder", cylinder},
+                                                         {"loopsubdiv", subdivision},
+                                                         {"curve", curve}};
     return table;
 }
 
@@ -109,7 +114,8 @@ Geometry read_mesh(const Bytes& bytes, const Placement& placement) {
 void Budget::take(const Geometry& geometry) {
     constexpr std::uint64_t least = 16;
     const auto* mesh = std::get_if<Mesh>(&geometry);
-    take(least + (mesh ? mesh->triangles.size() + mesh->positions.size() : 0));
+    const auto* curves = std::get_if<Curves>(&geometry);
+    take(least + (mesh ? mesh->triangles.size() + mesh->positions.size() : 0) + (curves ? curves->points.size() : 0));
 }
 
 std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& parameters, const Placement& placement) {
@@ -117,7 +123,7 @@ std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& par
         parameters.ignore_all();
         return nullptr;  // said in the end
     }
-    if (type == "curve" || (type == "nurbs" && sources_.older())) {
+    if (type == "nurbs" && sources_.older()) {
         parameters.ignore_all();
         sources_.report.warn(parameters.where(),
                              fmt::format("shapes of type '{}' are not supported and left out", type));

@@ -53,6 +53,13 @@ SceneData test_scene() {
     tin.turn = 5;
     tin.to_world.m = {{{0.3, 0.1, -0.2, -0.1}, {0.3, 0.4, -0.2, 0.2}, {0.3, 0.4, 0.5, -0.1}, {0, 0, 0, 1}}};
     data.shapes.back().geometry = tin;
+    data.shapes.push_back({});
+    Curves hair;
+    hair.points = {
+        {-1, -0.5f, 0.2f, 0.05f}, {0.3f, 0.9f, -0.4f, 0.1f}, {0.5f, -0.8f, 0.3f, 0.2f}, {1, 0.6f, 0.1f, 0.1f}};
+    hair.segments = {0};
+    hair.strands = {0};
+    data.shapes.back().geometry = std::move(hair);
     return data;
 }
 

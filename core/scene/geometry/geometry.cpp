@@ -238,7 +238,7 @@ struct Geometry::Tracer {
     }
     void commit(RTCScene what) const {
         // No ray may slip between two triangles that share an edge.
-        rtcSetSceneFlags(what, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(what, hair ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneProgressMonitorFunction(what, goes_on, const_cast<std::atomic<bool>*>(LookingAt::now()));
         rtcCommitScene(what);
         const auto code = rtcGetDeviceError(device);
@@ -268,6 +268,7 @@ struct Geometry::Tracer {
     std::vector<RTCGeometry> geometries;  // by shape; null: never to be met
     std::vector<RTCScene> objects;        // the same
     bool eight;                           // rays are traced at once; else four
+    bool hair = false;                    // trees of curves would be twice as large
     bool alone = false;                   // all are: Embree turns around the transforms of instances that move, which
                                           // it does for packets with other roundings
     float farthest = 1e17f;               // coordinate of rays, which instances may stretch; Embree's own is 1.8e18
@@ -312,6 +313,9 @@ Geometry::Geometry(SceneData& data, const Shading& shading, const Options& optio
 
     // In the order of the files: a shape's index is its name.
     tracer.geometries.resize(shapes);
+    tracer.hair = std::any_of(data.shapes.begin(), data.shapes.end(),
+                              [](const Shape& shape) { return std::holds_alternative<Curves>(shape.geometry); });
+    tracer.alone = tracer.hair;  // and finds curves in packets with other roundings
     tracer.objects.resize(data.objects.size());
     for (std::size_t o = 0; o < data.objects.size(); ++o) {
         const auto& parts = data.objects[o].shapes;

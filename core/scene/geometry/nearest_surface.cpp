@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <vector>
 
 namespace lightnet {
 namespace {
@@ -43,6 +44,25 @@ Vec2 nearest_on_triangle(const Corners& at, Vec3 p) {
     return {float(vb / sum), float(vc / sum)};
 }
 
+// A segment lies among its control points, and is as thick as they are at most.
+bool may_reach(const Curves& curves, std::uint32_t segment, const Matrix& to_world, const SurfaceWish& wish) {
+    double square = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) square += to_world.m[i][j] * to_world.m[i][j];
+    const auto stretch = float(std::sqrt(square));
+    Box box;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto [x, y, z, radius] = curves.points[curves.segments[segment] + i];
+        const Vec3 at = transform_point(to_world, {x, y, z});
+        const float far = radius * stretch + wish.reach;
+        box.add(at - Vec3{far, far, far});
+        box.add(at + Vec3{far, far, far});
+    }
+    const Vec3 p = wish.position;
+    return p.x >= box.low.x && p.y >= box.low.y && p.z >= box.low.z && p.x <= box.high.x && p.y <= box.high.y &&
+           p.z <= box.high.z;
+}
+
 /// Looks at one candidate after the other, in any order.
 class NearestSurface {
 public:
@@ -62,9 +82,30 @@ public:
         });
     }
 
+    /// Embree leaves curves out of what it offers.
+    void look_at_curves() {
+        const SceneData& data = surfaces_.data;
+        std::vector<bool> in_object(data.shapes.size());
+        for (const auto& object : data.objects)
+            for (const auto shape : object.shapes) in_object[shape] = true;
+        for (std::uint32_t s = 0; s < data.shapes.size(); ++s)
+            if (!in_object[s]) look_at_segments(Query::no_instance, s);
+        for (std::uint32_t i = 0; i < data.instances.size(); ++i)
+            for (const auto shape : data.objects[data.instances[i].object].shapes) look_at_segments(i, shape);
+    }
+
     const std::optional<Hit>& best() const { return best_; }
 
 private:
+    void look_at_segments(std::uint32_t instance, std::uint32_t geometry) {
+        const Curves* curves = forms_[geometry].curves;
+        if (!curves) return;
+        const bool placed = instance != Query::no_instance;
+        const Matrix to_world = placed ? surfaces_.data.instances[instance].to_world : Matrix{};
+        for (std::uint32_t s = 0; s < curves->segments.size(); ++s) {
+            if (may_reach(*curves, s, to_world, wish_)) look_at({instance, geometry, s, 0, 0, 0});
+        }
+    }
     void look_at(Hit hit) {
         const bool placed = hit.instance != Query::no_instance;
         const Placement* placement = placed ? &surfaces_.shading.placements()[hit.instance] : nullptr;
@@ -166,6 +207,8 @@ std::optional<Hit> nearest_surface(RTCSceneTy* tree, std::span<const Form> forms
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(tree, &query, &context, look_at_candidate, &nearest);
+    if (std::any_of(forms.begin(), forms.end(), [](const Form& form) { return form.curves != nullptr; }))
+        nearest.look_at_curves();
     return nearest.best();
 }
 
