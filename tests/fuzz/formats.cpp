@@ -6,6 +6,7 @@
 #include "core/readers/common/light_profile.hpp"
 #include "core/readers/common/measurements.hpp"
 #include "core/readers/common/volume_file.hpp"
+#include "core/readers/mitsuba/curves.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/scene/bsdf/measured.hpp"
@@ -197,6 +198,20 @@ std::vector<std::string> serialized_seeds() {
     return {one + packed(6) + raw(std::uint64_t{0}, std::uint64_t{one.size()}, 2u), packed(6)};
 }
 
+void read_strands(std::span<const std::byte> bytes) {
+    for (const bool linear : {false, true}) try {
+            const Curves curves = lightnet::mitsuba::read_curves(text_of(bytes), linear, {});
+            if (!curves.fault().empty()) throw std::logic_error("strands that can't be built");
+            for (const float at : {0.0f, 0.7f, 1.0f}) (void)surface_of(curves.at(0, at), 1.5f);
+        } catch (const Error&) {
+        }
+}
+
+std::vector<std::string> strand_seeds() {
+    return {"0 0 0 .1\n0 0 1 .1\n 0 1 2 1e-1\r\n+1 0 3 0\n\n1 2 3 4\n5 6 7 8\n9 10 11 12\n13 14 15 16",
+            "0 0 0 1\n1 0 0 1\n\n\t\n1 1 1 1\n1 1 1 1"};
+}
+
 void read_volume(std::span<const std::byte> bytes) {
     try {
         const auto volume = read_volume_file(bytes, {});
@@ -260,6 +275,7 @@ Target obj() { return {"obj", read_obj<drop>, obj_seeds}; }
 Target rays_obj() { return {"rays_obj", read_obj<render>, obj_seeds, 20}; }
 Target measured() { return {"measured", read_measured, measured_seeds}; }
 Target profiles() { return {"profiles", read_profile, profile_seeds}; }
+Target strands() { return {"strands", read_strands, strand_seeds}; }
 Target volumes() { return {"volumes", read_volume, volume_seeds}; }
 Target serialized() { return {"serialized", read_serialized, serialized_seeds}; }
 

@@ -43,6 +43,8 @@ Target gltf();
 Target obj();
 /// Mitsuba's packed meshes.
 Target serialized();
+/// Hair of Mitsuba's text files.
+Target strands();
 /// Measured materials, and light on those that could be read.
 Target measured();
 /// Profiles of luminaires, asked for what they send into some directions.
@@ -93,11 +95,11 @@ Target pasts();
 Target words();
 
 inline std::vector<Target> all_targets() {
-    return {packets(),    scenes(),   meshes(),  texts(),     mitsuba(),       gltf(),        obj(),
-            serialized(), pictures(), films(),   manifests(), jobs(),          checkpoints(), graphs(),
-            keys(),       gates(),    watched(), rays_pbrt(), rays_mitsuba(),  rays_gltf(),   rays_obj(),
-            customs(),    kept(),     pasts(),   words(),     conversations(), lines(),       rare_pictures(),
-            measured(),   profiles(), volumes()};
+    return {packets(),       scenes(),   meshes(),   texts(),   mitsuba(),   gltf(),          obj(),
+            serialized(),    strands(),  pictures(), films(),   manifests(), jobs(),          checkpoints(),
+            graphs(),        keys(),     gates(),    watched(), rays_pbrt(), rays_mitsuba(),  rays_gltf(),
+            rays_obj(),      customs(),  kept(),     pasts(),   words(),     conversations(), lines(),
+            rare_pictures(), measured(), profiles(), volumes()};
 }
 
 }  // namespace lightnet::fuzz

@@ -33,7 +33,8 @@ AreaLamps::Start AreaLamps::start(const Lamp&, const Curves* curves, Vec2 u) con
     const std::uint32_t segment = std::min(std::uint32_t(chosen), count - 1);
     const OnCurve middle = curves->at(segment, std::clamp(chosen - float(segment), 0.0f, 1.0f));
     // evenly in the angle, and then by its name
-    const Frame frame = Frame::around(normalize(middle.slope));
+    const float speed = length(middle.slope);
+    const Frame frame = Frame::around(speed > 0 ? middle.slope / speed : Vec3{0, 0, 1});
     const float turn = 2 * pi * u.y;
     const float name = across(middle, frame.x * std::cos(turn) + frame.y * std::sin(turn));
     const CurveSurface at = surface_of(middle, name);
