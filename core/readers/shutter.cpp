@@ -48,12 +48,14 @@ bool same_place(const Sphere& a, const Sphere& b) {
     return a.center == b.center && a.radius == b.radius && a.to_world.m == b.to_world.m;
 }
 bool same_place(const Quadric& a, const Quadric& b) { return a.to_world.m == b.to_world.m; }
+bool same_place(const Curves& a, const Curves& b) { return a.points == b.points; }
 bool same_place(const ShapeGeometry& a, const ShapeGeometry& b) {
     return std::visit([&](const auto& one) { return same_place(one, std::get<std::decay_t<decltype(one)>>(b)); }, a);
 }
 
 bool same_parts(const ShapeGeometry& a, const ShapeGeometry& b) {
     if (a.index() != b.index()) return false;
+    if (std::holds_alternative<Curves>(a)) return same_place(a, b);  // they stand still
     const auto *mesh = std::get_if<Mesh>(&a), *other = std::get_if<Mesh>(&b);
     return !mesh || (mesh->positions.size() == other->positions.size() &&
                      mesh->normals.size() == other->normals.size() && mesh->triangles == other->triangles);
@@ -99,6 +101,7 @@ double off(const Sphere& a, const Sphere& b, const Sphere& there) {
 double off(const Quadric& a, const Quadric& b, const Quadric& there) {
     return distance(middle(a.to_world, b.to_world), there.to_world, 1);
 }
+double off(const Curves&, const Curves&, const Curves&) { return 0; }  // they stand still
 bool straight(const ShapeGeometry& a, const ShapeGeometry& b, const ShapeGeometry& there, double size) {
     return std::visit(
         [&](const auto& one) {

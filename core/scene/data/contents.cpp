@@ -1,5 +1,7 @@
 #include "core/scene/data/contents.hpp"
 
+#include <algorithm>
+
 namespace lightnet {
 
 std::uint64_t triangles_of(const Shape& shape) {
@@ -11,6 +13,11 @@ std::uint64_t triangles_of(const SceneData& scene) {
     std::uint64_t count = 0;
     for (const Shape& shape : scene.shapes) count += triangles_of(shape);
     return count;
+}
+
+bool has_curves(const SceneData& scene) {
+    return std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                       [](const Shape& shape) { return std::holds_alternative<Curves>(shape.geometry); });
 }
 
 std::set<const Image*> images_of(const SceneData& scene) {

@@ -12,6 +12,8 @@ namespace lightnet {
 std::uint64_t triangles_of(const Shape& shape);
 /// Of all shapes once, however many instances they stand in.
 std::uint64_t triangles_of(const SceneData& scene);
+/// Is any shape of it made of curves?
+bool has_curves(const SceneData& scene);
 /// All images of textures and environments, which may share them.
 std::set<const Image*> images_of(const SceneData& scene);
 

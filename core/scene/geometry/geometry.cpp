@@ -268,9 +268,8 @@ struct Geometry::Tracer {
     std::vector<RTCGeometry> geometries;  // by shape; null: never to be met
     std::vector<RTCScene> objects;        // the same
     bool eight;                           // rays are traced at once; else four
-    bool hair = false;                    // trees of curves would be twice as large
-    bool alone = false;                   // all are: Embree turns around the transforms of instances that move, which
-                                          // it does for packets with other roundings
+    bool hair = false;                    // it needs compact trees
+    bool alone = false;                   // all are: packets have other roundings where instances move
     float farthest = 1e17f;               // coordinate of rays, which instances may stretch; Embree's own is 1.8e18
 };
 
@@ -313,9 +312,7 @@ Geometry::Geometry(SceneData& data, const Shading& shading, const Options& optio
 
     // In the order of the files: a shape's index is its name.
     tracer.geometries.resize(shapes);
-    tracer.hair = std::any_of(data.shapes.begin(), data.shapes.end(),
-                              [](const Shape& shape) { return std::holds_alternative<Curves>(shape.geometry); });
-    tracer.alone = tracer.hair;  // and finds curves in packets with other roundings
+    tracer.hair = tracer.alone = has_curves(data);  // packets have other roundings there, too
     tracer.objects.resize(data.objects.size());
     for (std::size_t o = 0; o < data.objects.size(); ++o) {
         const auto& parts = data.objects[o].shapes;
