@@ -69,7 +69,11 @@ private:
         const Vec3 n{world.r, world.g, world.b};
         return {dot(n, eye_.right), dot(n, eye_.up), -dot(n, eye_.ahead)};
     }
-    Rgb uv(const SurfacePoint& point, const Query&) const { return {point.uv.x, point.uv.y, 0}; }
+    Rgb uv(const SurfacePoint& point, const Query& question) const {
+        if (question.is_in_space()) return {};
+        const Vec2 at = scene_.texture_coordinates(point);
+        return {at.x, at.y, 0};
+    }
     // The mean of many samples' weights is the albedo for light that leaves towards the eye.
     Rgb albedo(const SurfacePoint& point, const Query& question) const {
         Samples samples(child(question.stream, key_), question.sample);

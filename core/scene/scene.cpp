@@ -172,6 +172,10 @@ void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const {
     built_->shading.find(hit, to.emplace_back());
 }
 
+Vec2 Scene::texture_coordinates(const SurfacePoint& point) const {
+    return built_->shading.coordinates(point.geometry, point.primitive, point.u, point.v).uv;
+}
+
 void Scene::expect(std::span<const std::optional<Hit>> hits) const { built_->shading.expect(hits); }
 
 std::span<const ColumnShape> Scene::column_shapes() const { return built_->shading.column_shapes(); }

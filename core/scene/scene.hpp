@@ -92,6 +92,8 @@ public:
         return query.is_in_space() ? point_in_space(query.place_in_space(), query.medium, query.time)
                                    : surface(hit(query));
     }
+    /// Texture coordinates of a surface point, also where its material asks for none, and it has none of its own.
+    Vec2 texture_coordinates(const SurfacePoint& point) const;
     /// What a question names, as if a ray had met it. Throws Error if it isn't there: it may come from another host.
     Hit hit(const Query& query) const;
     /// A point in a medium. Throws Error if there is no such medium.

@@ -12,8 +12,9 @@ using namespace test;
 // A wall at z = 0 over the left half of the picture, seen from 2 before it.
 SceneData half_a_wall(float mirrored = 0) {
     SceneData data;
-    add(data, quad({-100, -100, 0}, {100, 0, 0}, {0, 200, 0}),
-        mirrored > 0 ? mirror(data, mirrored) : diffuse(data, 0.5f));
+    Mesh wall = quad({-100, -100, 0}, {100, 0, 0}, {0, 200, 0});
+    wall.uvs = {{0, 0}, {1, 0}, {1, 2}, {0, 2}};
+    add(data, std::move(wall), mirrored > 0 ? mirror(data, mirrored) : diffuse(data, 0.5f));
     data.camera = camera({0, 0, 2}, {0, 0, 0}, 90);
     data.camera_given = true;
     data.film.scale = 3;
@@ -25,7 +26,7 @@ using Pictures = std::map<std::string, std::vector<Rgb>>;
 Pictures facts_of(SceneData data, std::uint32_t samples = 4) {
     SmallNetwork network(std::move(data), 8, 8);
     std::vector<std::string> shown;
-    for (const char* of : {"coverage", "depth", "distance", "position", "normal", "camera_normal", "albedo"}) {
+    for (const char* of : {"coverage", "depth", "distance", "position", "normal", "camera_normal", "uv", "albedo"}) {
         network.add(of, "SurfaceFact", {}, {{"of", Value{std::string(of)}}});
         shown.emplace_back(of);
     }
@@ -50,6 +51,8 @@ TEST(SurfaceFact, TellsWhatIsSeenAndNothingOfWhatIsNot) {
     expect_near(left(facts, "normal"), {0, 0, 1}, 1e-5f);
     expect_near(left(facts, "camera_normal"), {0, 0, 1}, 1e-5f);
     EXPECT_NEAR(left(facts, "position").b, 0, 1e-5f);
+    const Rgb place = left(facts, "position");
+    expect_near(left(facts, "uv"), {place.r / 100 + 1, place.g / 100 + 1, 0}, 1e-3f);
     const Rgb at = left(facts, "position");
     EXPECT_NEAR(std::sqrt(at.r * at.r + at.g * at.g + 4), left(facts, "distance").r, 0.02f);
     EXPECT_LT(at.r, -0.5f) << "on the left";
