@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# package.sh [FOLDER]: makes packages of this tree (.deb, tar.gz, sources, a wheel of the module for Python) and puts them
+# package.sh [FOLDER]: makes packages of this tree (.deb, tar.gz, sources, a wheel of the module for Python, an add-on for Blender) and puts them
 # into FOLDER (default: out).
 # Two builds of one commit give the same bytes: all times in them are those of the commit.
 set -euo pipefail
@@ -23,6 +23,7 @@ rm -rf build/package/_CPack_Packages
 rm -rf "$folder/_CPack_Packages"
 
 python3 python/wheel.py "$folder" >/dev/null
+python3 blender/zip.py "$folder" >/dev/null
 
 # What cpack gets wrong: times in the tar, and, in packages of symbols, checksums of files by where they were staged.
 again=$(mktemp -d)
