@@ -94,6 +94,14 @@ SceneData room() {
     medium.phase.parts = {{}};
     scene.media = {medium};
     scene.shapes[0].media = MediumSides{0, 1};
+    scene.shapes.push_back({Curves{Curves::Basis::bezier, {{0, 0, 0, 1}, {}, {}, {1, 0, 0, 1}}, {0}, {0}},
+                            0,
+                            {},
+                            {"room.pbrt", 9},
+                            "hair"});
+    scene.motion.shapes = {{0, {mesh}}};
+    scene.motion.instances = {{0, {Matrix{}}}};
+    scene.motion.lights = {{0, {PointLight{{0, 1, 1}, {1, 1, 1}}}}};
     return scene;
 }
 

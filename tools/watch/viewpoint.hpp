@@ -1,4 +1,4 @@
-// Where a picture is seen from, as one would say it in a graph.
+// A viewpoint: how a graph says from where a picture is seen.
 #pragma once
 
 #include "core/base/math/box.hpp"

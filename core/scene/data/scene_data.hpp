@@ -220,6 +220,10 @@ template <class State>
 void visit_members(const Moved<State>& moved, const auto& visit) {
     visit(moved.which, moved.later);
 }
+template <class State>
+void visit_members(Moved<State>& moved, const auto& visit) {
+    visit(moved.which, moved.later);
+}
 
 /// What moves, in the order of the scene's lists. A mesh that does has positions and normals alone, as many as at
 /// first.
