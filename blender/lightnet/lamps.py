@@ -5,7 +5,7 @@ import math
 from mathutils import Matrix
 
 from . import xml
-from .materials import _behind, black, image_file
+from .materials import behind, black, image_file
 
 
 def lamp(thing, at, warnings):
@@ -78,13 +78,13 @@ def world(data, folder, warnings):
     if not data.use_nodes:
         return _constant(data.color)
     output = data.node_tree.get_output_node("CYCLES") or data.node_tree.get_output_node("ALL")
-    node = _behind(output.inputs["Surface"]) if output else None
+    node = behind(output.inputs["Surface"]) if output else None
     if node is None:
         return _constant((0, 0, 0))
     if node.type != "BACKGROUND":
         warnings[f"{data.name}: node '{node.name}' is not known, and black"] = None
         return _constant((0, 0, 0))
-    strength, sky = node.inputs["Strength"].default_value, _behind(node.inputs["Color"])
+    strength, sky = node.inputs["Strength"].default_value, behind(node.inputs["Color"])
     if sky is None:
         return _constant(_times(tuple(node.inputs["Color"].default_value)[:3], strength))
     if sky.type != "TEX_ENVIRONMENT" or sky.image is None or sky.projection != "EQUIRECTANGULAR":
@@ -98,7 +98,7 @@ def _constant(colour):
 
 
 def _panorama(sky, strength, folder, warnings, name):
-    turn, mapping = Matrix.Identity(4), _behind(sky.inputs["Vector"])
+    turn, mapping = Matrix.Identity(4), behind(sky.inputs["Vector"])
     if mapping is not None and mapping.type == "MAPPING":
         turn = mapping.inputs["Rotation"].default_value.to_matrix().to_4x4().inverted()
     elif mapping is not None and mapping.type != "TEX_COORD":

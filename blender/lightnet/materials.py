@@ -14,6 +14,7 @@ class Materials:
 
     def __init__(self, folder, warnings):
         self.folder, self.warnings = folder, warnings
+        self._said = set()  # sockets that the file says something of
 
     def of(self, material):
         """(text of the bsdf, emitted radiance or None) of a material, or of none."""
@@ -24,7 +25,9 @@ class Materials:
         output = material.node_tree.get_output_node("CYCLES") or material.node_tree.get_output_node("ALL")
         if output is None:
             return black(), None
-        return self.shader(_behind(output.inputs["Surface"]), material.name)
+        if output.inputs["Displacement"].is_linked:
+            self.warn(material.name, output, "is without its displacement")
+        return self.shader(self.feeds(output.inputs["Surface"]), material.name)
 
     def shader(self, node, where):
         """(bsdf, radiance or None) of a node; None is black, as in Blender."""
@@ -34,13 +37,24 @@ class Materials:
         if known is None:
             self.warn(where, node, "is not known, and grey")
             return grey, None
-        return known(node, where)
+        said = known(node, where)
+        for socket in node.inputs:
+            if socket.is_linked and (node.name, socket.identifier) not in self._said:
+                self.warn(where, node, f"is without what feeds its '{socket.name}'")
+        return said
+
+    def feeds(self, socket):
+        """What a socket is fed by, of which the file says something."""
+        self._said.add((socket.node.name, socket.identifier))
+        return behind(socket)
 
     def warn(self, where, node, what):
         """Says once what of a node can't be said."""
         self.warnings[f"{where}: node '{node.name}' {what}"] = None
 
     def _bsdf_diffuse(self, node, where):
+        if self.value(node.inputs["Roughness"], where) > 0:
+            self.warn(where, node, "is without its roughness")
         return xml.element("bsdf", "", [self.colour("reflectance", node.inputs["Color"], where)], type="diffuse"), None
 
     def _bsdf_glossy(self, node, where):
@@ -95,18 +109,19 @@ class Materials:
 
     def _emission(self, node, where):
         strength = self.value(node.inputs["Strength"], where)
+        self.warn(where, node, "shines where faces point, not behind them")
         return black(), [strength * part for part in self.flat(node.inputs["Color"], where)]
 
     def _mix_shader(self, node, where):
         part = self.value(node.inputs[0], where)
-        first, second = (self.shader(_behind(node.inputs[slot]), where) for slot in (1, 2))
+        first, second = (self.shader(self.feeds(node.inputs[slot]), where) for slot in (1, 2))
         bsdf = xml.element("bsdf", "", [xml.number("weight", part), first[0], second[0]], type="blendbsdf")
         glow = [(1 - part) * a + part * b for a, b in zip(first[1] or (0,) * 3, second[1] or (0,) * 3)]
         return bsdf, glow if max(glow) > 0 else None
 
     def flat(self, socket, where):
         """Colour of a socket, where it may not vary."""
-        node = _behind(socket)
+        node = self.feeds(socket)
         if node is not None and node.type == "RGB":
             return tuple(node.outputs[0].default_value)[:3]
         if node is not None:
@@ -115,7 +130,7 @@ class Materials:
 
     def value(self, socket, where):
         """Number of a socket."""
-        node = _behind(socket)
+        node = self.feeds(socket)
         if node is not None and node.type == "VALUE":
             return node.outputs[0].default_value
         if node is not None:
@@ -124,9 +139,12 @@ class Materials:
 
     def colour(self, name, socket, where):
         """Colour of a socket, or the picture that it comes from."""
-        node = _behind(socket)
+        node = self.feeds(socket)
         if node is None or node.type != "TEX_IMAGE" or node.image is None:
             return xml.rgb(name, self.flat(socket, where))
+        way = self.feeds(node.inputs["Vector"])
+        if way is not None and way.type not in ("TEX_COORD", "UVMAP"):
+            self.warn(where, node, f"lies by the active texture coordinates, whatever '{way.name}' says")
         return picture(name, node, self.folder)
 
 
@@ -163,7 +181,7 @@ def image_file(image, folder):
     return path
 
 
-def _behind(socket):
+def behind(socket):
     """Node that a socket is fed by, beyond reroutes; None without any."""
     while socket.is_linked:
         node = socket.links[0].from_node

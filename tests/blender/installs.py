@@ -2,6 +2,7 @@
 is left."""
 
 import glob
+import importlib
 import os
 import subprocess
 import sys
@@ -36,6 +37,16 @@ def covered(scene, name):
     assert max(pixels[4 * (12 * 32 + 16) :][:3]) > 0
 
 
+def unsaid(scene):
+    """What the material of the cube can't say, with a bump map in front of it."""
+    tree = bpy.data.materials["Material"].node_tree
+    tree.links.new(tree.nodes.new("ShaderNodeBump").outputs[0], tree.nodes["Principled BSDF"].inputs["Normal"])
+    warnings = {}
+    with tempfile.TemporaryDirectory() as folder:
+        importlib.import_module("lightnet.materials").Materials(folder, warnings).of(bpy.data.materials["Material"])
+    return list(warnings)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         tempfile.tempdir = os.environ["BLENDER_USER_SCRIPTS"] = folder
@@ -51,6 +62,7 @@ def main():
         bpy.ops.render.render(animation=True)
         assert sorted(glob.glob("film-*", root_dir=folder)) == ["film-0001.png", "film-0002.png"]
         covered(scene, os.path.join(folder, "cut.png"))
+        assert unsaid(scene) == ["Material: node 'Principled BSDF' is without what feeds its 'Normal'"]
         scene.camera = None
         assert said("camera")
         scene.camera = next(one for one in scene.objects if one.type == "CAMERA")
