@@ -67,6 +67,21 @@ TEST(MitsubaColours, OfEveryEmitterAreLight) {
     expect_near(first(model_of<DiffuseMaterial>(both).reflectance), {0.5f, 0.5f, 0.5f}, 0.01f);
 }
 
+TEST(MitsubaEmitters, MayShineOnBothSidesUnseenAndFromADisk) {
+    const auto emission = [](const std::string& more) {
+        return read_mitsuba("<shape type='sphere'><emitter type='area'>" + more + "</emitter></shape>")
+            .shapes[0]
+            .emission;
+    };
+    EXPECT_FALSE(emission("")->two_sided);
+    EXPECT_FALSE(emission("")->unseen);
+    EXPECT_TRUE(emission("<boolean name='two_sided' value='true'/>")->two_sided);
+    EXPECT_TRUE(emission("<boolean name='unseen' value='true'/>")->unseen);
+    const auto sun =
+        read_mitsuba("<shape type='sphere'/><emitter type='directional'><float name='angle' value='2'/></emitter>");
+    EXPECT_NEAR(std::get<DirectionalLight>(sun.lights.at(0)).half_angle, 0.0174533f, 1e-6f);
+}
+
 TEST(MitsubaColours, AreNothingBeyondTheirTables) {
     const Rgb red = reflectance("<spectrum name='reflectance' value='620:.5, 760:.5'/>");
     EXPECT_GT(red.r, 0.2f);

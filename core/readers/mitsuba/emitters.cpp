@@ -123,12 +123,22 @@ void projector(Properties& properties, Textures& textures, SceneData& scene) {
     scene.lights.push_back(light);
 }
 
+/// A number that has bounds.
+float bounded(Properties& properties, std::string_view name, float fallback, float least, float most) {
+    const float value = properties.number(name, fallback);
+    if (value >= least && value <= most) return value;
+    properties.context().error(properties.node(),
+                               fmt::format("'{}' is {}, but must be {} … {}", name, value, least, most));
+    return fallback;
+}
+
 void directional(Properties& properties, Textures&, SceneData& scene) {
     const Matrix to_world = transform_of(properties);
     const Vec3 ahead = properties.has("direction") ? properties.point("direction", {0, 0, 1})
                                                    : transform_direction(to_world, {0, 0, 1});
-    scene.lights.push_back(
-        DirectionalLight{unit(ahead, {0, 0, 1}), light_of(properties, "irradiance", 1).rgb, label(properties)});
+    const float angle = bounded(properties, "angle", 0, 0, 179);
+    scene.lights.push_back(DirectionalLight{unit(ahead, {0, 0, 1}), light_of(properties, "irradiance", 1).rgb,
+                                            label(properties), angle / 2 * to_radians});
 }
 
 void constant(Properties& properties, Textures&, SceneData& scene) {
@@ -195,15 +205,6 @@ Daylight daylight_of(Properties& properties) {
             unit(transform_direction(turn, third ? Vec3{-north, -east, high} : Vec3{east, high, -north}), day.up);
     }
     return day;
-}
-
-/// A number of a sky, which has bounds.
-float bounded(Properties& properties, std::string_view name, float fallback, float least, float most) {
-    const float value = properties.number(name, fallback);
-    if (value >= least && value <= most) return value;
-    properties.context().error(properties.node(),
-                               fmt::format("'{}' is {}, but must be {} … {}", name, value, least, most));
-    return fallback;
 }
 
 /// Both in one, or one of both. By default the sun is as bright as the sky, whose scale is that of both.

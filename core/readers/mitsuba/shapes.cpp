@@ -282,7 +282,8 @@ std::optional<AreaEmission> Shapes::emission(Properties& properties) {
         context_.warn(*given[0], fmt::format("emitter '{}' inside of a shape is left out", given[0]->type));
         return std::nullopt;
     }
-    AreaEmission emission{{1, 1, 1}, false, {}, {given[0]->id}};
+    AreaEmission emission{{1, 1, 1}, lamp.boolean("two_sided", false), {}, {given[0]->id}};
+    emission.unseen = lamp.boolean("unseen", false);
     const Node* radiance = lamp.find("radiance");
     if (radiance && !is_colour(*radiance))
         emission.texture = textures_.of_light(*radiance);
