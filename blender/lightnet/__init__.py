@@ -1,31 +1,29 @@
-"""An add-on for Blender 3.4 and later: the render engine lightnet, which renders stills and animations by the program
-`lightnet` in a process of its own."""
-
-import bpy
-
-from . import engine, panels
+"""Blender's door to lightnet: a render engine that writes scenes, runs the program, and brings pictures back."""
 
 bl_info = {
     "name": "lightnet",
-    "description": "Physically based rendering on one machine or many",
+    "description": "Renders by networks of light operators, on this machine and on others",
     "author": "lightnet",
-    "version": (1, 0, 0),
+    "version": (0, 1, 0),
     "blender": (3, 4, 0),
+    "location": "Render Properties > Render Engine",
     "category": "Render",
 }
 
 
 def register():
-    """Adds the engine, its settings and its panels."""
-    for kind in panels.kinds + engine.kinds:
-        bpy.utils.register_class(kind)
-    bpy.types.Scene.lightnet = bpy.props.PointerProperty(type=panels.LightnetSettings)
-    panels.share(True)
+    """Called by Blender when the add-on is switched on."""
+    from . import engine, panels, properties
+
+    properties.register()
+    engine.register()
+    panels.register()
 
 
 def unregister():
-    """Takes away what register() added."""
-    panels.share(False)
-    del bpy.types.Scene.lightnet
-    for kind in reversed(panels.kinds + engine.kinds):
-        bpy.utils.unregister_class(kind)
+    """Called by Blender when the add-on is switched off."""
+    from . import engine, panels, properties
+
+    panels.unregister()
+    engine.unregister()
+    properties.unregister()

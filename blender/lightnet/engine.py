@@ -1,140 +1,224 @@
-"""The render engine: it writes the scene to a folder, has the program render it, and shows the picture."""
+"""The render engine: F12 and Ctrl-F12."""
 
-import json
 import os
 import shutil
-import subprocess
 import tempfile
+import time
 
 import bpy
-import numpy as np
+import numpy
 
-from . import scene as scenes
+from . import graph, program
+from .camera import size_of
+from .export import Export, plain
+from .picture import Picture
 
-
-def program():
-    """Path of the program: that of the preferences, else $LIGHTNET, else the one in the PATH; None without any."""
-    addon = bpy.context.preferences.addons.get(__package__)
-    chosen = addon.preferences.program if addon and addon.preferences else ""
-    for path in (bpy.path.abspath(chosen), os.environ.get("LIGHTNET"), shutil.which("lightnet")):
-        if path and os.access(path, os.X_OK):
-            return path
-    return None
+cancelled = 130
 
 
-def graph(settings, width, height):
-    """Text of the graph, in Lua. A guide learns from a path for every 14 samples, as graphs/guided.lua has it."""
-    paths = width * height * settings.samples // 14 + 64
-    guide = f'guide = Guide {{ paths = {paths}, when = "worthwhile" }}\n' if settings.lighting == "GUIDED" else ""
-    return (
-        'scene = Scene { "scene.xml", two_sided = true }\n'
-        f'{guide}light = PathTracing {{ paths = "all"{", guide = guide" if guide else ""} }}\n'
-        f"image = RayTracer {{ light, scene = scene, samples = {settings.samples}, film = {{ {width}, {height} }} }}\n"
-    )
+class Workplace:
+    """The folder of one animation (or still): files that frames have in common stay in it until all is done."""
+
+    folder = None
+
+    @classmethod
+    def path(cls):
+        if cls.folder is None:
+            memory = "/dev/shm"
+            cls.folder = tempfile.mkdtemp(prefix="lightnet-", dir=memory if os.access(memory, os.W_OK) else None)
+        return cls.folder
+
+    @classmethod
+    def remove(cls, *_):
+        if cls.folder is not None:
+            shutil.rmtree(cls.folder, ignore_errors=True)
+            cls.folder = None
 
 
-def share(line):
-    """How much of the picture is there by a line that the program said, 0 to 1; None when it doesn't say."""
-    try:
-        told = json.loads(line)
-        return told["done"] / told["total"] if told["event"] == "progress" else None
-    except (ValueError, KeyError, TypeError, ZeroDivisionError):
-        return None
+def facts_of(layer):
+    """Names of passes that a view layer asks for and that are facts of surfaces or mattes."""
+    wanted = {
+        "Depth": layer.use_pass_z, "Normal": layer.use_pass_normal, "Position": layer.use_pass_position,
+        "UV": layer.use_pass_uv, "DiffCol": layer.use_pass_diffuse_color,
+        "CryptoObject": layer.use_pass_cryptomatte_object, "CryptoMaterial": layer.use_pass_cryptomatte_material,
+    }
+    return [name for name, on in wanted.items() if on]
 
 
 class LightnetEngine(bpy.types.RenderEngine):
-    """What Blender calls for stills and for each frame of an animation."""
-
     bl_idname = "LIGHTNET"
     bl_label = "lightnet"
     bl_use_preview = False
+    bl_use_postprocess = True
+    bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False
 
+    def update_render_passes(self, scene, layer):
+        """Tells the compositor which passes there will be."""
+        self.register_pass(scene, layer, "Combined", 4, "RGBA", "COLOR")
+        for name, channels, letters, kind in passes_of(scene, layer):
+            self.register_pass(scene, layer, name, channels, letters, kind)
+
     def render(self, depsgraph):
-        """Renders the frame of `depsgraph`. Mistakes are reported; the folder and the process are gone afterwards."""
-        path = program()
-        if path is None:
-            self.report({"ERROR"}, "there is no program lightnet in the PATH; the add-on's preferences may name it")
-            return
-        with tempfile.TemporaryDirectory(prefix="lightnet-blender-") as folder:
-            try:
-                self._render(path, folder, depsgraph)
-            except (OSError, ValueError, subprocess.SubprocessError) as error:
-                self.report({"ERROR"}, str(error))
+        """Called in a thread of Blender's, for each frame and view layer."""
+        layer, (width, height) = depsgraph.view_layer.name, size_of(depsgraph.scene)
+        self.end_result(self.begin_result(0, 0, width, height, layer=layer))  # Blender can't write a picture without
+        try:
+            self._render(depsgraph)
+        except (OSError, ValueError) as mistake:
+            self.report({"ERROR"}, str(mistake))
+            self.error_set(str(mistake))
+        finally:
+            if not self.is_animation:
+                Workplace.remove()
 
-    def _render(self, path, folder, depsgraph):
-        scene = depsgraph.scene
-        scale = scene.render.resolution_percentage / 100
-        size = int(scene.render.resolution_x * scale), int(scene.render.resolution_y * scale)
-        self.update_stats("", "writing the scene")
-        for warning in scenes.write(folder, depsgraph, size):
-            self.report({"WARNING"}, warning)
+    def _render(self, depsgraph):
+        scene, folder = depsgraph.scene, Workplace.path()
+        settings, layer = scene.lightnet, depsgraph.view_layer
+        began = time.monotonic()
+        self.update_stats("", "exporting")
+        preferences = bpy.context.preferences.addons.get(__package__)
+        chosen = bpy.path.abspath(preferences.preferences.program) if preferences else ""
+        where = program.path_of(chosen)
+        export = Export(folder, scene, depsgraph, layer)
+        export.write()
+        for line in export.report.lines():
+            self.report({"WARNING"}, line)
+        command = [where, *self._words(scene, layer, export, folder), *options_of(settings)]
+        self._groups = sorted(export.groups)
+        self._seen = None
+        print(f"lightnet: exported in {time.monotonic() - began:.2f} s")
+        self._run(scene, layer, command, folder)
+
+    def _words(self, scene, layer, export, folder):
+        """The verb, and what it renders."""
+        settings, size = scene.lightnet, size_of(scene)
+        if settings.lighting == "file":
+            file = bpy.path.abspath(settings.graph)
+            words = ["render", "scene.xml", "--lighting", file, "--samples", str(settings.samples)]
+            return words + (["--clean"] if settings.clean else []) + (["--alpha"] if scene.render.film_transparent else [])
+        text = graph.text_of(
+            settings.lighting, size, settings.samples, round(settings.error, 6), export.groups, facts_of(layer),
+            2 * max(1, layer.pass_cryptomatte_depth // 2), scene.render.film_transparent, settings.clean,
+        )
         with open(os.path.join(folder, "graph.lua"), "w", encoding="utf-8") as file:
-            file.write(graph(scene.lightnet, *size))
-        if self._ran(self._words(path, scene), folder):
-            self._show(folder, size, scene)
+            file.write(text)
+        return ["run", "graph.lua"]
 
-    def _words(self, path, scene):
-        own = scene.lightnet
-        words = [path, "run", "graph.lua", "-o", "x.exr", "--npz", "x.npz", "--forget", "--progress", "json"]
-        words += ["--seed", str(own.seed)]
-        if own.threads:
-            words += ["--threads", str(own.threads)]
-        if own.hosts:
-            words += ["--hosts", bpy.path.abspath(own.hosts)]
-        if own.key:
-            words += ["--key", bpy.path.abspath(own.key)]
-        if scene.render.film_transparent:
-            words.append("--alpha")
-        return words + (["--clean"] if own.clean else [])
+    def _run(self, scene, layer, command, folder):
+        for name in ("picture.npz", "picture.clean.npz"):
+            if os.path.exists(os.path.join(folder, name)):
+                os.remove(os.path.join(folder, name))
+        with program.Run(command, folder) as run:
+            stopped = False
+            while run.hear(0.1):
+                left = f", {run.left:.0f} s left" if run.left else ""
+                self.update_stats("", f"{run.phase} {100 * run.share:.0f} %{left}")
+                self.update_progress(run.share)
+                if self.test_break() and not stopped:
+                    stopped = True
+                    run.cancel()
+                self._show(scene, layer, folder)
+            code = run.code()
+        if code != 0 and not (code == cancelled and stopped):
+            raise ValueError("\n".join(run.said[-12:]) or f"lightnet ended with code {code}")
+        self._show(scene, layer, folder, True)
 
-    def _ran(self, words, folder):
-        """Whether the program made a picture; False when the user cancelled it, or after an error, which is reported."""
-        with open(os.path.join(folder, "said"), "w+", encoding="utf-8") as said:
-            with subprocess.Popen(words, cwd=folder, stdout=said, stderr=subprocess.STDOUT, start_new_session=True) as run:
-                try:
-                    cancelled = self._wait(run, folder)
-                finally:
-                    if run.poll() is None:
-                        run.terminate()
-            said.seek(0)
-            text = said.read()
-        if run.returncode != 0 and not cancelled:
-            self.report({"ERROR"}, text.strip()[-2000:] or f"lightnet ended with {run.returncode}")
-        return run.returncode == 0
-
-    def _wait(self, run, folder):
-        """Waits for the process, and shows how far it is. True: the user cancelled it."""
-        while True:
-            try:
-                run.wait(0.1)
-                return False
-            except subprocess.TimeoutExpired:
-                if self.test_break():
-                    run.terminate()
-                    return True
-                self._tell(folder)
-
-    def _tell(self, folder):
-        with open(os.path.join(folder, "said"), encoding="utf-8", errors="replace") as file:
-            lines = file.read().splitlines()
-        done = [part for part in map(share, lines) if part is not None]
-        if done:
-            self.update_progress(done[-1])
-            self.update_stats("", f"{100 * done[-1]:.0f} %")
-
-    def _show(self, folder, size, scene):
-        if scene.lightnet.clean:
-            words = [program(), "remix", "x.clean.exr", "-o", "y.exr", "--npz", "x.npz"]
-            subprocess.run(words, cwd=folder, check=True, capture_output=True)
-        with np.load(os.path.join(folder, "x.npz")) as arrays:
-            pixels = np.ones((size[1], size[0], 4), np.float32)
-            pixels[..., :3] = arrays["beauty"]
-            if scene.render.film_transparent and "alpha" in arrays:
-                pixels[..., 3] = arrays["alpha"]
-        result = self.begin_result(0, 0, *size)
-        result.layers[0].passes["Combined"].rect = pixels[::-1].reshape(-1, 4)
+    def _show(self, scene, layer, folder, last=False):
+        """Hands the picture that there is to Blender, if it is a new one."""
+        file = os.path.join(folder, "picture.npz")
+        try:
+            facts = os.stat(file)
+        except FileNotFoundError:
+            return
+        if (facts.st_ino, facts.st_mtime_ns) == self._seen and not last:
+            return
+        self._seen = facts.st_ino, facts.st_mtime_ns
+        found = Picture(file)
+        pixels = found.passes(self._groups)
+        clean = os.path.join(folder, "picture.clean.npz")
+        if last and scene.lightnet.clean and os.path.exists(clean):
+            pixels["Noisy Image"] = pixels["Combined"]
+            pixels["Combined"] = Picture(clean).combined()
+        height, width = found.beauty.shape[:2]
+        result = self.begin_result(0, 0, width, height, layer=layer.name)
+        passes = result.layers[0].passes
+        passes.foreach_set("rect", numpy.concatenate([filled(one, pixels, height, width) for one in passes]))
+        if last:
+            self._tell_mattes(found)
         self.end_result(result)
 
+    def _tell_mattes(self, found):
+        """What Blender's Cryptomatte node looks for."""
+        result = self.get_result()
+        for name, manifest in found.manifests.items():
+            full = f"ViewLayer.{name}"
+            key = f"cryptomatte/{abs(hash(full)) & 0xFFFFFFF:07x}"
+            for word, value in (("name", full), ("hash", "MurmurHash3_32"), ("conversion", "uint32_to_float32")):
+                result.stamp_data_add_field(f"{key}/{word}", value)
+            result.stamp_data_add_field(f"{key}/manifest", manifest)
 
-kinds = (LightnetEngine,)
+
+def filled(one, pixels, height, width):
+    """The numbers of a pass of Blender's, whose row 0 is at the bottom; what there is no array of is 0."""
+    whole = numpy.zeros((height, width, one.channels), numpy.float32)
+    there = pixels.get(one.name)
+    if there is not None:
+        count = min(one.channels, there.shape[2])
+        whole[..., :count] = there[::-1, :, :count]
+    return whole.ravel()
+
+
+def passes_of(scene, layer):
+    """Name, channels, letters and kind of each pass beside the picture itself."""
+    settings = scene.lightnet
+    letters = {"Depth": "Z", "Normal": "XYZ", "Position": "XYZ", "UV": "UVA", "DiffCol": "RGB"}
+    kinds = {"Depth": "VALUE", "Normal": "VECTOR", "Position": "VECTOR", "UV": "VECTOR", "DiffCol": "COLOR"}
+    if settings.clean:
+        yield "Noisy Image", 4, "RGBA", "COLOR"
+    for name in facts_of(layer) if settings.lighting != "file" else ():
+        if name in letters:
+            yield name, len(letters[name]), letters[name], kinds[name]
+        else:
+            for index in range(max(1, layer.pass_cryptomatte_depth // 2)):
+                yield f"{name}{index:02d}", 4, "RGBA", "COLOR"
+    if layer.use_pass_emit:
+        yield "Emit", 3, "RGB", "COLOR"
+    groups = sorted(plain(group.name) for group in layer.lightgroups)
+    for group in groups:
+        yield f"Combined_{group}", 3, "RGB", "COLOR"
+    if settings.layers:
+        operators = {"path": ["direct", "bounce"], "direct": ["direct"], "progressive": ["direct", "indirect"],
+                     "figure5": ["direct", "caustics", "soft"]}.get(settings.lighting, [])
+        for operator in ["emission", *operators]:
+            for group in [*groups, "rest"] if groups and settings.lighting in graph.by_groups else [""]:
+                yield "Layer " + operator + (f".{group}" if group else ""), 3, "RGB", "COLOR"
+
+
+def options_of(settings):
+    """Words of the command line that say how, not what."""
+    words = ["-o", "picture.exr", "--npz", "picture.npz", "--compression", "none", "--forget", "--progress", "json"]
+    words += ["--seed", str(settings.seed)]
+    if settings.threads:
+        words += ["--threads", str(settings.threads)]
+    if settings.hosts:
+        hosts = settings.hosts
+        words += ["--hosts", bpy.path.abspath(hosts) if hosts.startswith("//") else hosts]
+    if settings.key:
+        words += ["--key", bpy.path.abspath(settings.key)]
+    if settings.preview > 0:
+        words += ["--preview", repr(settings.preview)]
+    return words
+
+
+def register():
+    bpy.utils.register_class(LightnetEngine)
+    bpy.app.handlers.render_complete.append(Workplace.remove)
+    bpy.app.handlers.render_cancel.append(Workplace.remove)
+
+
+def unregister():
+    bpy.app.handlers.render_cancel.remove(Workplace.remove)
+    bpy.app.handlers.render_complete.remove(Workplace.remove)
+    Workplace.remove()
+    bpy.utils.unregister_class(LightnetEngine)

@@ -1,109 +1,118 @@
-"""Lamps and the world of Blender, whose strengths are watts, as emitters of Mitsuba's format."""
+"""Lamps of Blender as emitters of Mitsuba's, in the same units: watts, and of suns watts per square metre."""
 
 import math
 
+import numpy
 from mathutils import Matrix
 
-from . import xml
-from .materials import behind, black, image_file
+from . import values, xml
+
+half_turn = Matrix.Rotation(math.pi, 4, "Y")  # lamps of Blender shine along -z, those of Mitsuba along +z
 
 
-def lamp(thing, at, warnings):
-    """Text of a lamp that stands at `at`."""
-    data = thing.data
-    light = [data.energy * part for part in data.color]
-    at = at.normalized()
-    if data.type == "SUN":
-        return sun(data, light, at, warnings, thing.name)
-    if data.type == "AREA":
-        return area(data, light, at, thing.matrix_world.to_scale())
-    if data.type == "SPOT":
-        return spot(data, light, at, warnings, thing.name)
-    return point(data, light, at)
+def shining(name, radiance, hidden):
+    """What a surface that is a lamp has: an emitter, and a black material; hidden ones are met by no ray."""
+    black = xml.Element("bsdf", type="diffuse").add(xml.colour("reflectance", (0, 0, 0)))
+    emitter = xml.Element("emitter", type="area", id=name).add(xml.colour("radiance", radiance))
+    if not hidden:
+        return black, emitter
+    return xml.Element("bsdf", type="mask").add(xml.number("opacity", 0), black), emitter.add(xml.flag("unseen"))
 
 
-def sun(data, light, at, warnings, name):
-    """Irradiance of a plane that faces it, in W/m²."""
-    if data.angle > math.radians(1):
-        warnings[f"{name}: shadows of the sun are sharp, without its angle"] = None
-    inside = [xml.matrix("to_world", at @ Matrix.Diagonal((-1, 1, -1, 1))), xml.rgb("irradiance", light)]
-    return xml.element("emitter", "", inside, type="directional")
+def is_hidden(lamp, middle, radius, export):
+    """Must it not be met by rays? The camera sees no lamp in Blender, but mirrors and glass do."""
+    if not export.may_see(middle, radius):
+        return False
+    export.report.approximate("lamps before the camera are not seen in mirrors and through glass", lamp.name)
+    return True
 
 
-def point(data, light, at):
-    """A sphere of radiance P / (4 π² r²), or without a radius an intensity of P / (4 π)."""
-    radius = data.shadow_soft_size
-    if radius <= 0:
-        place = "".join(f' {axis}="{float(value)!r}"' for axis, value in zip("xyz", at.translation))
-        inside = [f'<point name="position"{place}/>\n', xml.rgb("intensity", _times(light, 1 / (4 * math.pi)))]
-        return xml.element("emitter", "", inside, type="point")
-    glow = _times(light, 1 / (4 * math.pi**2 * radius**2))
-    return _shining("sphere", glow, at @ Matrix.Diagonal((radius, radius, radius, 1)))
+def stretch_of(matrix):
+    return [matrix.col[i].to_3d().length for i in range(3)]
 
 
-def spot(data, light, at, warnings, name):
-    """A point whose light is kept to a cone; Mitsuba's edge is linear in the angle, Blender's smooth in its cosine."""
-    if data.shadow_soft_size > 0:
-        warnings[f"{name}: shadows of the spot are sharp, without its radius"] = None
-    half = math.degrees(data.spot_size) / 2
-    inner = half * (1 - data.spot_blend) if data.spot_blend > 0 else half * 0.999
-    inside = [xml.matrix("to_world", at @ Matrix.Diagonal((-1, 1, -1, 1))), xml.number("cutoff_angle", half)]
-    inside += [xml.number("beam_width", inner), xml.rgb("intensity", _times(light, 1 / (4 * math.pi)))]
-    return xml.element("emitter", "", inside, type="spot")
-
-
-def area(data, light, at, scale):
-    """A rectangle or an ellipse of radiance P / (4 A), as Cycles has it."""
-    across = data.size * scale.x
-    along = (data.size_y if data.shape in ("RECTANGLE", "ELLIPSE") else data.size) * scale.y
-    is_round = data.shape in ("DISK", "ELLIPSE")
-    surface = across * along * (math.pi / 4 if is_round else 1)
-    at = at @ Matrix.Diagonal((-across / 2, along / 2, -1, 1))
-    return _shining("disk" if is_round else "rectangle", _times(light, 1 / (4 * surface)), at)
-
-
-def _shining(kind, glow, at):
-    inside = [xml.matrix("to_world", at), black(), xml.element("emitter", "", [xml.rgb("radiance", glow)], type="area")]
-    return xml.element("shape", "", inside, type=kind)
-
-
-def _times(light, factor):
-    return [factor * part for part in light]
-
-
-def world(data, folder, warnings):
-    """Light from all around: a colour, or a picture turned about z."""
-    if data is None:
-        return _constant((0, 0, 0))
-    if not data.use_nodes:
-        return _constant(data.color)
-    output = data.node_tree.get_output_node("CYCLES") or data.node_tree.get_output_node("ALL")
-    node = behind(output.inputs["Surface"]) if output else None
+def strength_of(lamp, report):
+    """Colour times power. Nodes of a lamp may say more, of which an Emission's own numbers are taken."""
+    strength = numpy.array(lamp.color[:]) * lamp.energy
+    if not lamp.use_nodes or lamp.node_tree is None:
+        return strength
+    node = next((node for node in lamp.node_tree.nodes if node.type == "EMISSION"), None)
+    if node is None or any(socket.is_linked for socket in node.inputs):
+        report.approximate("linked nodes of lamps do nothing", lamp.name)
     if node is None:
-        return _constant((0, 0, 0))
-    if node.type != "BACKGROUND":
-        warnings[f"{data.name}: node '{node.name}' is not known, and black"] = None
-        return _constant((0, 0, 0))
-    strength, sky = node.inputs["Strength"].default_value, behind(node.inputs["Color"])
-    if sky is None:
-        return _constant(_times(tuple(node.inputs["Color"].default_value)[:3], strength))
-    if sky.type != "TEX_ENVIRONMENT" or sky.image is None or sky.projection != "EQUIRECTANGULAR":
-        warnings[f"{data.name}: node '{sky.name}' is not known, and black"] = None
-        return _constant((0, 0, 0))
-    return _panorama(sky, strength, folder, warnings, data.name)
+        return strength
+    return strength * numpy.array(node.inputs["Color"].default_value[:3]) * node.inputs["Strength"].default_value
 
 
-def _constant(colour):
-    return xml.element("emitter", "", [xml.rgb("radiance", colour)], type="constant")
+def point(lamp, matrix, name, strength, export):
+    intensity = strength / (4 * math.pi)
+    place, radius = matrix.translation, lamp.shadow_soft_size
+    if radius <= 0:
+        return xml.Element("emitter", type="point", id=name).add(
+            xml.Element("point", name="position", x=place.x, y=place.y, z=place.z), xml.colour("intensity", intensity)
+        )
+    return xml.Element("shape", type="sphere").add(
+        xml.Element("point", name="center", x=place.x, y=place.y, z=place.z), xml.number("radius", radius),
+        *shining(name, intensity / (math.pi * radius**2), is_hidden(lamp, place, radius, export)),
+    )
 
 
-def _panorama(sky, strength, folder, warnings, name):
-    turn, mapping = Matrix.Identity(4), behind(sky.inputs["Vector"])
-    if mapping is not None and mapping.type == "MAPPING":
-        turn = mapping.inputs["Rotation"].default_value.to_matrix().to_4x4().inverted()
-    elif mapping is not None and mapping.type != "TEX_COORD":
-        warnings[f"{name}: node '{mapping.name}' is not known, and left out"] = None
-    # Mitsuba has y up in its maps, Blender z; this turns the middle of one onto that of the other.
-    upright = Matrix(((0, 0, 1, 0), (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
-    inside = [xml.single("string", "filename", image_file(sky.image, folder)), xml.number("scale", strength)]
-    return xml.element("emitter", "", inside + [xml.matrix("to_world", turn @ upright)], type="envmap")
+def slide(angle, blend, size=512):
+    """The picture that a spot throws: its soft edge, by the cosine, as Cycles has it; on a plane before the lamp."""
+    tangent = math.tan(angle / 2)
+    x, y = numpy.meshgrid(*2 * [(numpy.arange(size) + 0.5) / size * 2 - 1])
+    cosine = 1 / numpy.sqrt(1 + (x**2 + y**2) * tangent**2)
+    edge = math.cos(angle / 2)
+    soft = (1 - edge) * blend
+    t = numpy.clip((cosine - edge) / max(soft, 1e-6), 0, 1)
+    return numpy.repeat((t * t * (3 - 2 * t))[..., None], 4, axis=2).astype(numpy.float32)
+
+
+def spot(lamp, matrix, name, strength, export):
+    if lamp.shadow_soft_size > 0:
+        export.report.approximate("spot lamps shine from a point, so that their shadows are sharp", lamp.name)
+    angle = min(lamp.spot_size, math.radians(178))
+    cutoff = math.degrees(angle / 2)
+    stood = Matrix.Translation(matrix.translation) @ matrix.to_3x3().normalized().to_4x4() @ half_turn
+    file = export.write_data(values.pfm(slide(angle, lamp.spot_blend)), "slide", ".pfm")
+    picture = xml.Element("texture", type="bitmap", name="texture").add(xml.word("filename", file), xml.flag("raw"))
+    return xml.Element("emitter", type="spot", id=name).add(
+        xml.transform(stood), xml.colour("intensity", strength / (4 * math.pi)),
+        xml.number("cutoff_angle", cutoff), xml.number("beam_width", cutoff), picture,
+    )
+
+
+def sun(lamp, matrix, name, strength, export):
+    ahead = matrix.to_3x3().normalized() @ Matrix.Identity(3).col[2] * -1
+    return xml.Element("emitter", type="directional", id=name).add(
+        xml.Element("vector", name="direction", x=ahead.x, y=ahead.y, z=ahead.z),
+        xml.colour("irradiance", strength), xml.number("angle", math.degrees(min(lamp.angle, 3.1))),
+    )
+
+
+def area(lamp, matrix, name, strength, export):
+    """Radiance is a quarter of the power over the area, as Cycles has it."""
+    round_ = lamp.shape in ("DISK", "ELLIPSE")
+    even = lamp.shape in ("SQUARE", "DISK")
+    wide, high = lamp.size, lamp.size if even else lamp.size_y
+    x, y, _ = stretch_of(matrix)
+    size = max(wide * x * high * y * (math.pi / 4 if round_ else 1), 1e-12)
+    if lamp.spread < math.pi - 1e-3:
+        export.report.approximate("area lamps shine to all sides, whatever their spread", lamp.name)
+    hidden = is_hidden(lamp, matrix.translation, math.hypot(wide * x, high * y) / 2, export)
+    stood = matrix @ Matrix.Diagonal((wide / 2, high / 2, 1, 1)) @ half_turn
+    return xml.Element("shape", type="disk" if round_ else "rectangle").add(
+        xml.transform(stood), *shining(name, strength / (4 * size), hidden)
+    )
+
+
+makers = {"POINT": point, "SPOT": spot, "SUN": sun, "AREA": area}
+
+
+def element(thing, matrix, name, export):
+    """Of an evaluated object that is a lamp; None: it is dark."""
+    lamp = thing.data
+    strength = strength_of(lamp, export.report)
+    if not (strength > 0).any():
+        return None
+    return makers[lamp.type](lamp, matrix, name, strength, export)

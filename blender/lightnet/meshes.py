@@ -1,65 +1,96 @@
-"""Meshes as binary PLY files, one for each material."""
+"""Meshes of Blender as PLY files, one for each material of them."""
 
-import hashlib
-import os
+import numpy
 
-import numpy as np
+from . import values
 
 
-def arrays(mesh):
-    """Corners of triangles: (positions, normals, texture coordinates or None), each (triangles, 3, n), and the material's
-    slot of each triangle."""
+def arrays_of(mesh):
+    """Of an evaluated mesh: its vertices, and what triangles make of them.
+
+    Vertices (v, 3); their numbers (n, 3), normals (n, 3, 3) and texture coordinates (n, 3, 2) or None by triangle and
+    corner; materials (n).
+    """
     mesh.calc_loop_triangles()
-    mesh.calc_normals_split() if hasattr(mesh, "calc_normals_split") else None
     count = len(mesh.loop_triangles)
-    corners = _got(mesh.loop_triangles, "loops", count * 3, np.int32)
-    at = _got(mesh.vertices, "co", len(mesh.vertices) * 3, np.float32).reshape(-1, 3)
-    of_corner = _got(mesh.loops, "vertex_index", len(mesh.loops), np.int32)
-    normals = _got(mesh.loops, "normal", len(mesh.loops) * 3, np.float32).reshape(-1, 3)
-    slots = _got(mesh.loop_triangles, "material_index", count, np.int32)
-    layer = mesh.uv_layers.active
-    uv = _got(layer.data, "uv", len(mesh.loops) * 2, np.float32).reshape(-1, 2)[corners] if layer else None
+    loops, corners = numpy.empty(3 * count, numpy.int32), numpy.empty(3 * count, numpy.int32)
+    mesh.loop_triangles.foreach_get("loops", loops)
+    mesh.loop_triangles.foreach_get("vertices", corners)
+    which = numpy.empty(count, numpy.int32)
+    mesh.loop_triangles.foreach_get("material_index", which)
+    places = numpy.empty(3 * len(mesh.vertices), numpy.float32)
+    mesh.vertices.foreach_get("co", places)
+    normals = normals_of(mesh)
+    layer = next((one for one in mesh.uv_layers if one.active_render), None)
+    uv = None
+    if layer is not None:
+        uv = numpy.empty(2 * len(mesh.loops), numpy.float32)
+        layer.data.foreach_get("uv", uv)
+        uv = uv.reshape(-1, 2)[loops].reshape(-1, 3, 2)
+    return places.reshape(-1, 3), corners.reshape(-1, 3), normals[loops].reshape(-1, 3, 3), uv, which
+
+
+def normals_of(mesh):
+    """Of each corner of a polygon."""
+    found = numpy.empty(3 * len(mesh.loops), numpy.float32)
+    if hasattr(mesh, "corner_normals"):
+        mesh.corner_normals.foreach_get("vector", found)
+    else:
+        mesh.calc_normals_split()
+        mesh.loops.foreach_get("normal", found)
+    return found.reshape(-1, 3)
+
+
+def shared_corners(places, corners, normals, uv):
+    """Vertices and triangles, where all corners of each vertex agree; None: they don't."""
+    first = numpy.empty(len(places), numpy.int64)
+    flat = corners.reshape(-1)
+    first[flat] = numpy.arange(len(flat))
+    same = first[flat]
+    flat_normals = normals.reshape(-1, 3)
+    if not numpy.array_equal(flat_normals, flat_normals[same]):
+        return None
+    parts = [places, numpy.zeros_like(places)]
+    parts[1][flat] = flat_normals
     if uv is not None:
-        uv[:, 1] = 1 - uv[:, 1]  # Mitsuba counts rows of pictures from the top
-    return at[of_corner[corners]], normals[corners], uv, slots
+        flat_uv = uv.reshape(-1, 2)
+        if not numpy.array_equal(flat_uv, flat_uv[same]):
+            return None
+        parts.append(numpy.zeros((len(places), 2), numpy.float32))
+        parts[2][flat] = flat_uv
+    return numpy.concatenate(parts, axis=1), corners
 
 
-def _got(collection, name, count, kind):
-    values = np.empty(count, kind)
-    collection.foreach_get(name, values)
-    return values
+def ply(places, corners, normals, uv):
+    """The bytes of a binary PLY file. Texture coordinates go down, as Mitsuba's do."""
+    if uv is not None:
+        uv = numpy.stack((uv[..., 0], 1 - uv[..., 1]), axis=-1)
+    found = shared_corners(places, corners, normals, uv)
+    if found is None:
+        parts = [places[corners.reshape(-1)], normals.reshape(-1, 3)] + ([uv.reshape(-1, 2)] if uv is not None else [])
+        found = numpy.concatenate(parts, axis=1), numpy.arange(corners.size).reshape(-1, 3)
+    vertices, triangles = found
+    words = ["x", "y", "z", "nx", "ny", "nz"] + (["u", "v"] if uv is not None else [])
+    head = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(vertices)}\n"
+    head += "".join(f"property float {word}\n" for word in words)
+    head += f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
+    faces = numpy.empty(len(triangles), numpy.dtype([("count", "u1"), ("corners", "<i4", 3)]))
+    faces["count"], faces["corners"] = 3, triangles
+    return head.encode() + numpy.ascontiguousarray(vertices, "<f4").tobytes() + faces.tobytes()
 
 
-def write(folder, mesh):
-    """Writes a file for each slot that has triangles; files are named after what is in them, and equal ones are written
-    once. Gives {slot: name of the file}."""
-    at, normals, uv, slots = arrays(mesh)
-    parts = [at.reshape(-1, 3), normals] + ([uv] if uv is not None else [])
-    table = np.concatenate(parts, axis=1).astype("<f4").reshape(len(slots), -1)
-    return {int(slot): _file(folder, table[slots == slot], uv is not None) for slot in np.unique(slots)}
+def parts_of(mesh):
+    """A file's bytes for each material's number in a mesh."""
+    places, corners, normals, uv, which = arrays_of(mesh)
+    for number in numpy.unique(which):
+        chosen = which == number
+        if chosen.all():
+            yield int(number), ply(places, corners, normals, uv)
+            continue
+        used, renamed = numpy.unique(corners[chosen], return_inverse=True)
+        part_uv = None if uv is None else uv[chosen]
+        yield int(number), ply(places[used], renamed.reshape(-1, 3), normals[chosen], part_uv)
 
 
-def _file(folder, rows, has_uv):
-    name = hashlib.sha256(rows.tobytes()).hexdigest()[:24] + ".ply"
-    path = os.path.join(folder, name)
-    if not os.path.exists(path):
-        with open(path, "wb") as file:
-            file.write(_head(len(rows), has_uv))
-            file.write(rows.tobytes())
-            file.write(_faces(len(rows)).tobytes())
-    return name
-
-
-def _head(triangles, has_uv):
-    names = ["x", "y", "z", "nx", "ny", "nz"] + (["u", "v"] if has_uv else [])
-    lines = ["ply", "format binary_little_endian 1.0", f"element vertex {3 * triangles}"]
-    lines += [f"property float {name}" for name in names]
-    lines += [f"element face {triangles}", "property list uchar int vertex_indices", "end_header"]
-    return ("\n".join(lines) + "\n").encode()
-
-
-def _faces(triangles):
-    faces = np.empty(triangles, np.dtype([("count", "u1"), ("corners", "<i4", 3)]))
-    faces["count"] = 3
-    faces["corners"] = np.arange(3 * triangles).reshape(-1, 3)
-    return faces
+def file_name(data):
+    return f"mesh-{values.name_of(data)}.ply"

@@ -1,35 +1,58 @@
-"""Elements of Mitsuba's scene format, as text."""
+"""Elements of Mitsuba's XML, as far as scenes of Blender need them. Knows nothing of Blender."""
 
 from xml.sax.saxutils import quoteattr
 
 
-def numbers(values):
-    """Numbers with all of their digits, and commas between them."""
-    return ", ".join(repr(float(value)) for value in values)
+class Element:
+    """`<tag key="value">`, with what it holds. Elements that are put into several places are written out in each."""
 
+    def __init__(self, tag, **attributes):
+        self.tag, self.attributes, self.children = tag, attributes, []
 
-def element(tag, name, inside, **attributes):
-    """An element around others."""
-    words = {"name": name, **attributes} if name else attributes
-    return f"<{tag} {' '.join(f'{key}={quoteattr(str(value))}' for key, value in words.items())}>\n{''.join(inside)}</{tag}>\n"
+    def add(self, *children):
+        """Puts in what is not None, and returns the element itself."""
+        self.children += [child for child in children if child is not None]
+        return self
 
+    def named(self, name):
+        """A copy under another name, for another property."""
+        copy = Element(self.tag, **{**self.attributes, "name": name})
+        copy.children = self.children
+        return copy
 
-def single(tag, name, value):
-    """An element with a value."""
-    return f"<{tag} name={quoteattr(name)} value={quoteattr(str(value))}/>\n"
-
-
-def rgb(name, colour):
-    """A colour, linear."""
-    return single("rgb", name, numbers(colour[:3]))
+    def lines(self, indent=""):
+        words = " ".join(f"{key}={quoteattr(str(value))}" for key, value in self.attributes.items())
+        opening = f"{indent}<{self.tag} {words}".rstrip()
+        if not self.children:
+            yield opening + "/>"
+            return
+        yield opening + ">"
+        for child in self.children:
+            yield from child.lines(indent + " ")
+        yield f"{indent}</{self.tag}>"
 
 
 def number(name, value):
-    """A number."""
-    return single("float", name, repr(float(value)))
+    return Element("float", name=name, value=repr(float(value)))
 
 
-def matrix(name, rows):
-    """A transform by the rows of a 4x4 matrix."""
-    values = " ".join(repr(float(value)) for row in rows for value in row)
-    return f'<transform name={quoteattr(name)}>\n<matrix value="{values}"/>\n</transform>\n'
+def integer(name, value):
+    return Element("integer", name=name, value=int(value))
+
+
+def word(name, value):
+    return Element("string", name=name, value=value)
+
+
+def flag(name, value=True):
+    return Element("boolean", name=name, value="true" if value else "false")
+
+
+def colour(name, rgb):
+    return Element("rgb", name=name, value=" ".join(repr(float(c)) for c in rgb[:3]))
+
+
+def transform(rows, name="to_world"):
+    """Of 4 rows of 4 numbers."""
+    text = " ".join(repr(float(x)) for row in rows for x in row)
+    return Element("transform", name=name).add(Element("matrix", value=text))

@@ -1,0 +1,215 @@
+"""A scene of Blender as a folder with `scene.xml`, files of meshes and pictures beside it."""
+
+import os
+import re
+
+from mathutils import Matrix
+
+from . import camera, lamps, meshes, shaders, values, world, xml
+from .report import Report
+
+with_mesh = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
+
+
+def plain(name):
+    """A name of letters, digits and _."""
+    return re.sub(r"\W", "_", name, flags=re.ASCII)[:60] or "_"
+
+
+class Export:
+    """Writes into a folder that may have files of frames before: what is there by the same bytes stays."""
+
+    def __init__(self, folder, scene, depsgraph, view_layer=None):
+        self.folder, self.scene, self.depsgraph = folder, scene, depsgraph
+        self.report = Report()
+        self.groups = {}  # names of lamps by group
+        self._used, self._surfaces, self._parts, self._ids = set(), {}, {}, set()
+        self._known_groups = {group.name for group in view_layer.lightgroups} if view_layer else set()
+        self._body, self._materials = [], []
+        self._meshes = {}
+        self.triangles = 0
+
+    def write(self):
+        """Writes all of it, and removes what is no longer used."""
+        root = xml.Element("scene", version="3.0.0")
+        if self.scene.camera is None:
+            raise ValueError("the scene has no camera")
+        root.add(camera.sensor(self.scene.camera.evaluated_get(self.depsgraph), self.scene, self.report))
+        self._gather()
+        for element in world.elements(self.depsgraph.scene, self):
+            self._body.append(element)
+        if self.depsgraph.scene.world:
+            self._join(world.name, self.depsgraph.scene.world.lightgroup)
+        root.add(*self._materials, *self._body)
+        with open(os.path.join(self.folder, "scene.xml"), "w", encoding="utf-8") as file:
+            file.write("\n".join(root.lines()) + "\n")
+        for name in os.listdir(self.folder):
+            if name.startswith(("mesh-", "map-", "world-", "slide-")) and name not in self._used:
+                os.remove(os.path.join(self.folder, name))
+
+    def write_data(self, data, kind, ending):
+        """The name of a file with these bytes, written unless it is there."""
+        name = f"{kind}-{values.name_of(data)}{ending}"
+        path = os.path.join(self.folder, name)
+        if not os.path.exists(path):
+            with open(path + ".part", "wb") as file:
+                file.write(data)
+            os.replace(path + ".part", path)
+        self._used.add(name)
+        return name
+
+    def may_see(self, middle, radius):
+        """Does the camera perhaps see something of this ball?"""
+        thing = self.scene.camera.evaluated_get(self.depsgraph)
+        (wide, high), (x, y) = camera.frame_of(thing.data, self.scene)
+        place = thing.matrix_world.normalized().inverted() @ middle
+        depth = -place.z
+        if depth + radius <= 0:
+            return False
+        far = 1 if thing.data.type == "ORTHO" else depth + radius  # what is seen is widest there
+        middle_x, middle_y = (x, y) if thing.data.type == "ORTHO" else (x * depth, y * depth)
+        return abs(place.x - middle_x) <= wide * far + radius and abs(place.y - middle_y) <= high * far + radius
+
+    def put(self, name, value):
+        """The element of a value as a property."""
+        if values.is_constant(value):
+            single = name not in colours
+            return xml.number(name, value[:3].mean()) if single else xml.colour(name, value.clip(0, None))
+        element = xml.Element("texture", type="bitmap", name=name)
+        file = value.file or self.write_data(values.pfm(value.pixels), "map", ".pfm")
+        element.add(xml.word("filename", file), xml.word("wrap_mode", value.wrap))
+        if value.raw or not value.file:
+            element.add(xml.flag("raw"))
+        if value.channel and value.file:
+            element.add(xml.word("channel", value.channel))
+        if value.nearest:
+            element.add(xml.word("filter_type", "nearest"))
+        scale_x, scale_y, turn, x, y = value.mapping
+        if value.mapping != (1, 1, 0, 0, 0):
+            up = Matrix.Translation((0, 1, 0)) @ Matrix.Diagonal((1, -1, 1, 1))  # v goes down in the file
+            own = Matrix.Translation((x, y, 0)) @ Matrix.Rotation(turn, 4, "Z") @ Matrix.Diagonal((scale_x, scale_y, 1, 1))
+            element.add(xml.transform(up @ own @ up, "to_uv"))
+        return element
+
+    def _id(self, name):
+        """A new id, like a name."""
+        candidate, count = plain(name), 1
+        while candidate in self._ids:
+            count += 1
+            candidate = f"{plain(name)}_{count}"
+        self._ids.add(candidate)
+        return candidate
+
+    def _join(self, lamp, group):
+        """Puts a lamp into a group of its view layer."""
+        if group and group in self._known_groups:
+            self.groups.setdefault(plain(group), []).append(lamp)
+
+    def _surface(self, material):
+        """The id of a material's bsdf, and its light; written once."""
+        key = material.name_full if material else None
+        if key not in self._surfaces:
+            surface = shaders.surface_of(material.original if material else None, self.report)
+            element = (surface.bsdf or black)(self.put)
+            if not (values.is_constant(surface.opacity) and surface.opacity[0] >= 1):
+                element = xml.Element("bsdf", type="mask").add(self.put("opacity", surface.opacity), element)
+            element.attributes["id"] = self._id(material.name if material else "no material")
+            self._materials.append(element)
+            light = None if values.is_black(surface.emission) else surface.emission
+            self._surfaces[key] = element.attributes["id"], light
+        return self._surfaces[key]
+
+    def _gather(self):
+        """Things in the order in which Blender has them; those with one mesh and one look become instances."""
+        found, order = {}, []
+        for instance in self.depsgraph.object_instances:
+            thing = instance.object
+            if not instance.show_self:
+                continue
+            matrix = instance.matrix_world.copy()
+            if thing.type == "LIGHT":
+                self._lamp(thing, matrix)
+            elif thing.type in with_mesh:
+                looks = tuple(slot.material.name_full if slot.material else None for slot in thing.material_slots)
+                key = thing.type, thing.data.as_pointer(), looks
+                if key not in found:
+                    found[key] = self._mesh(thing), []
+                    order.append(key)
+                group = thing.lightgroup
+                found[key][1].append((thing.name, matrix, group))
+            elif thing.type not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "LIGHT_PROBE", "SPEAKER"):
+                self.report.missing(f"objects of type {thing.type.lower()}", thing.name)
+            if instance.is_instance is False and any(s.settings.type == "HAIR" for s in thing.particle_systems or ()):
+                self.report.missing("hairs of particles", thing.name)
+        for key in order:
+            self._stand(*found[key])
+
+    def _lamp(self, thing, matrix):
+        name = self._id(thing.name)
+        element = lamps.element(thing, matrix, name, self)
+        if element is not None:
+            self._body.append(element)
+            self._join(name, thing.lightgroup)
+
+    def _mesh(self, thing):
+        """Files of an object's mesh, each with what its material is."""
+        mesh = thing.to_mesh()
+        if mesh is None or not len(mesh.polygons):
+            thing.to_mesh_clear()
+            return []
+        slots = [slot.material for slot in thing.material_slots]
+        parts = []
+        for number, data in meshes.parts_of(mesh):
+            material = slots[min(number, len(slots) - 1)] if slots else None
+            parts.append((self.write_data(data, "mesh", ".ply"), *self._surface(material)))
+        thing.to_mesh_clear()
+        return parts
+
+    def _stand(self, parts, places):
+        """Puts a mesh where it stands: once as it is, else by instances of one group. Lamps stand each by itself."""
+        dark = [part for part in parts if part[2] is None]
+        for name, matrix, group in places:
+            for part in parts:
+                if part[2] is not None:
+                    self._shape(part, matrix, name, group)
+        if not dark:
+            return
+        if len(places) == 1:
+            for part in dark:
+                self._shape(part, places[0][1], places[0][0], "")
+            return
+        name = self._id(places[0][0])
+        body = xml.Element("shape", type="shapegroup", id=name)
+        for part in dark:
+            body.add(self._element(part, None, None))
+        self._body.append(body)
+        for _, matrix, _ in places:
+            instance = xml.Element("shape", type="instance")
+            self._body.append(instance.add(xml.transform(matrix), xml.Element("ref", id=name)))
+
+    def _element(self, part, matrix, name):
+        file, bsdf, _ = part
+        element = xml.Element("shape", type="ply", **({"id": name} if name else {}))
+        element.add(xml.word("filename", file))
+        if matrix is not None:
+            element.add(xml.transform(matrix))
+        return element.add(xml.Element("ref", id=bsdf))
+
+    def _shape(self, part, matrix, name, group):
+        name = self._id(name)
+        element = self._element(part, matrix, name)
+        if part[2] is not None:
+            lamp = self._id(name + "_light")
+            light = xml.Element("emitter", type="area", id=lamp)
+            element.add(light.add(self.put("radiance", part[2]), xml.flag("two_sided")))
+            self._join(lamp, group)
+        self._body.append(element)
+
+
+colours = {
+    "reflectance", "transmittance", "specular_reflectance", "specular_transmittance", "base_color", "radiance",
+}
+
+
+def black(_):
+    return xml.Element("bsdf", type="diffuse").add(xml.colour("reflectance", (0, 0, 0)))

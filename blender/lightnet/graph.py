@@ -1,0 +1,55 @@
+"""Graphs in Lua for the lightings that the panel offers. Knows nothing of Blender."""
+
+operators = {
+    "path": """direct = DirectLighting {{{groups}}}
+bounce = PathTracing {{{groups}}}
+light = Combine {{ direct, bounce }}""",
+    "direct": "direct = DirectLighting {{{groups}}}\nlight = Combine {{ direct }}",
+    "ao": "light = AmbientOcclusion {{}}",
+    "guided": """guide = Guide {{ paths = {learning}, when = "worthwhile" }}
+light = PathTracing {{ paths = "all", guide = guide{and_groups} }}""",
+    "progressive": """direct = DirectLighting {{}}
+indirect = ProgressivePhotonMapping {{ paths = "indirect", photons = 100000 }}
+light = Combine {{ direct, indirect }}""",
+    "figure5": """direct = DirectLighting {{}}
+caustics = PhotonMap {{ paths = "caustic", photons = 0, error = 0.01, gather = 50 }}
+global = PhotonMap {{ paths = "diffuse", photons = 0, error = 0.01, gather = 50 }}
+first = Combine {{ direct, caustics, global }}
+soft = IrradianceCache {{ first, rays = 0, glossy_rays = 4, error = 0.01 }}
+light = Combine {{ direct, caustics, soft }}""",
+}
+by_groups = {"path", "direct", "guided"}
+facts = {"Depth": "depth", "Normal": "normal", "Position": "position", "UV": "uv", "DiffCol": "albedo"}
+mattes = {"CryptoObject": "object", "CryptoMaterial": "material"}
+
+
+def text_of(lighting, size, samples, error=0, groups=None, shown=(), ranks=6, transparent=False, clean=False):
+    """A graph of `scene.xml` beside it. groups: names of lamps by group; shown: names of passes."""
+    groups = groups if lighting in by_groups else None
+    learning = size[0] * size[1] * samples // 14 + 64
+    lines = ['scene = Scene { "scene.xml"' + (f", groups = {table(groups)}" if groups else "") + " }"]
+    on = "groups = true" if groups else ""
+    lines.append(operators[lighting].format(groups=on, and_groups=f", {on}" if on else "", learning=learning))
+    names = []
+    for name in shown:
+        if name in facts:
+            lines.append(f'{name} = SurfaceFact {{ of = "{facts[name]}" }}')
+            names.append(name)
+        elif name in mattes:
+            lines.append(f'{name} = Cryptomatte {{ of = "{mattes[name]}", ranks = {ranks} }}')
+            names.append(name)
+    more = [f"samples = {samples}"] + ([f"error = {error!r}"] if error > 0 else []) + ([on] if on else [])
+    more += [f"show = {{ {', '.join(names)} }}"] if names else []
+    more += ["alpha = true", "background = false"] if transparent else []
+    film = f'film = {{ {size[0]}, {size[1]}, file = "picture.exr"{", clean = true" if clean else ""} }}'
+    lines.append(f"image = RayTracer {{ light, scene = scene, {', '.join(more)}, {film} }}")
+    return "\n".join(lines) + "\n"
+
+
+def table(groups):
+    entries = (f"{name} = {{ {', '.join(quoted(lamp) for lamp in lamps)} }}" for name, lamps in sorted(groups.items()))
+    return "{ " + ", ".join(entries) + " }"
+
+
+def quoted(text):
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'

@@ -1,0 +1,68 @@
+"""Functions of the add-on that know nothing of Blender."""
+
+import unittest
+
+import numpy
+
+from lightnet import graph, report, surfaces, values, xml
+
+
+def picture(pixels, **more):
+    return values.Picture(lambda: numpy.array(pixels, numpy.float32), **more)
+
+
+class Values(unittest.TestCase):
+    def test_of_a_chain_over_one_picture_are_one_picture(self):
+        one = picture([[(0, 0, 0, 1), (1, 1, 1, 1)]], mapping=(2.0, 1.0, 0.0, 0.0, 0.0))
+        result = values.mixed(one, values.constant(0.5, 0, 0), values.constant(0.5))
+        self.assertEqual(result.mapping, one.mapping)
+        numpy.testing.assert_allclose(result.pixels[0, :, :3], [(0.25, 0, 0), (0.75, 0.5, 0.5)])
+
+    def test_of_pictures_that_lie_otherwise_are_means(self):
+        one, other = picture([[(0, 0, 0, 1), (1, 1, 1, 1)]]), picture([[(0, 0, 0, 1), (1, 1, 1, 1)]], wrap="clamp")
+        numpy.testing.assert_allclose(values.scaled(one, other).pixels[0, :, 0], [0, 0.5])
+
+    def test_of_curves_are_those_of_srgb(self):
+        numpy.testing.assert_allclose(values.linear(numpy.array([0.0, 0.04, 0.5, 1.0])), [0, 0.003096, 0.214041, 1], atol=1e-6)
+
+    def test_are_written_bottom_row_first(self):
+        data = values.pfm(numpy.arange(16, dtype=numpy.float32).reshape(2, 2, 4))
+        self.assertTrue(data.startswith(b"PF\n2 2\n-1.0\n"))
+        numpy.testing.assert_array_equal(numpy.frombuffer(data[-48:], "<f4")[:6], [0, 1, 2, 4, 5, 6])
+
+
+class Surfaces(unittest.TestCase):
+    def put(self, name, value):
+        return xml.number(name, value[0])
+
+    def test_with_holes_keep_what_is_there(self):
+        hole, matt = surfaces.Surface(None, values.constant(0)), surfaces.Surface(surfaces.diffuse(values.constant(0.5)))
+        mixed = surfaces.mix(hole, matt, values.constant(0.25))
+        self.assertAlmostEqual(mixed.opacity[0], 0.25)
+        self.assertEqual(mixed.bsdf(self.put).attributes["type"], "twosided")
+
+    def test_shine_as_much_as_their_parts(self):
+        lamp = surfaces.Surface(None, emission=values.constant(8))
+        mixed = surfaces.mix(lamp, surfaces.Surface(surfaces.diffuse(values.constant(0.5))), values.constant(0.25))
+        self.assertAlmostEqual(mixed.emission[0], 6)
+        self.assertEqual(mixed.bsdf(self.put).attributes["type"], "blendbsdf")
+
+
+class Words(unittest.TestCase):
+    def test_of_xml_are_quoted(self):
+        lines = list(xml.Element("scene", version="3").add(xml.word("name", 'a"<b')).lines())
+        self.assertEqual(lines, ['<scene version="3">', " <string name=\"name\" value='a\"&lt;b'/>", "</scene>"])
+
+    def test_of_graphs_have_groups_where_lightings_know_them(self):
+        groups = {"key": ['lamp"1']}
+        self.assertIn('groups = { key = { "lamp\\"1" } }', graph.text_of("path", (8, 4), 16, groups=groups))
+        self.assertNotIn("groups", graph.text_of("figure5", (8, 4), 16, groups=groups))
+
+    def test_of_reports_come_once(self):
+        told = report.Report()
+        for place in ("a", "b", "a", "c"):
+            told.missing("hairs", place)
+        self.assertEqual(list(told.lines()), ["hairs are left out (a, and 2 others)"])
+
+
+unittest.main()
