@@ -149,6 +149,7 @@ TEST(PbrtWarnings, AreMissingOnlyWhereNothingIsMissed) {
                                                  {"maxanisotropy", "how it is filtered"},
                                                  {"meanfreepath", "'subsurface' is named"},
                                                  {"mfp", "'subsurface' is named"},
+                                                 {"N", "of round curves, which look alike from all sides"},
                                                  {"name", "'subsurface' is named"},
                                                  {"nbuckets", "how wavelengths are stored"},
                                                  {"nsamples", "how it is sampled"},
@@ -163,6 +164,7 @@ TEST(PbrtWarnings, AreMissingOnlyWhereNothingIsMissed) {
                                                  {"sigma_a", "'subsurface' and 'hair' are named"},
                                                  {"sigma_prime_s", "'subsurface' is named"},
                                                  {"sigma_s", "'subsurface' is named"},
+                                                 {"splitdepth", "how curves are traced"},
                                                  {"speculartint", "'disney' is named"},
                                                  {"trilinear", "how it is filtered"},
                                                  {"uv", "'st' stands before it"}};

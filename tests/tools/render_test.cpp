@@ -206,7 +206,7 @@ TEST(SceneInfo, CountsInstances) {
         "ObjectInstance \"o\" Translate 5 0 0 ObjectInstance \"o\" LightSource \"point\" LightSource \"distant\"");
     EXPECT_EQ(lightnet({"scene", "info", scene}), 0) << lightnet.err;
     for (const char* part :
-         {"1 in 1 meshes, 2 with all instances", "0 spheres, 0 quadrics, 1 objects, 2 instances",
+         {"1 in 1 meshes, 2 with all instances", "0 spheres, 0 quadrics, 0 curves, 1 objects, 2 instances",
           "1 directions, 1 points", "(0, 0, 0) to (6, 1, 0)", "none in the file", "approximations none"})
         EXPECT_THAT(lightnet.out, HasSubstr(part));
 }
