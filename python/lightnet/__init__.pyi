@@ -644,6 +644,10 @@ class Scene(Node):
         one of several animations of the file (glTF), by its name; else the first
     time: number, in seconds
         of what moves in the file; else that of the frame, and in a still all stands as the file has it
+    shutter: numbers, in frames
+        when it opens and closes, after the time: { 0, 0.5 } is half a frame, a shutter of 180 degrees; what moves in the file meanwhile is blurred
+    fps: number, 1e-06 …
+        frames per second, of which the shutter's are; else those of the graph
     material: text, "clay"
         clay: all surfaces are grey and diffuse; lamps and cut-outs stay
     groups: table of names
@@ -666,6 +670,8 @@ class Scene(Node):
         variant: str | None = ...,
         animation: str | None = ...,
         time: float | None = ...,
+        shutter: Sequence[float] | None = ...,
+        fps: float | None = ...,
         material: Literal["clay"] | None = ...,
         groups: Mapping[str, str | Sequence[str]] | None = ...,
         two_sided: bool | None = ...,

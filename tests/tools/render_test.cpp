@@ -192,9 +192,9 @@ TEST(Render, SaysWhatIsWrong) {
 TEST(SceneInfo, TellsWhatIsInAFile) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"scene", "info", lightnet.scene}), 0) << lightnet.err;
-    for (const char* part : {"0 in 0 meshes", "1 spheres", "1 diffuse", "1 constant environments",
-                             "(-1, -1, -1) to (1, 1, 1)", "perspective, 90 degrees", "30 x 20", "s to read",
-                             "MiB in all", "ball.pbrt:6: ", "singular transform"})
+    for (const char* part :
+         {"0 in 0 meshes", "1 spheres", "1 diffuse", "1 constant environments", "(-1, -1, -1) to (1, 1, 1)",
+          "perspective, 90 degrees", "30 x 20", "s to read", "MiB in all", "ball.pbrt:6: ", "singular transform"})
         EXPECT_THAT(lightnet.out, HasSubstr(part));
 }
 
