@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/base/error.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/light/describe_question.hpp"
 #include "core/run/place/full_bundle.hpp"
 #include "core/run/place/place.hpp"
@@ -111,7 +112,7 @@ void Place::answer_alone(const Message& ask, Message& reply) {
     const Tile* at = nullptr;  // none: what a light operator threw has its name already
     const auto text_of = [&](const std::exception& error) {
         const auto who = at ? "'" + network_.graph.nodes[ask.node].name + "' at " + describe(*at) + ", " : "";
-        return who + "on " + my_name() + ": " + error.what();
+        return who + "on " + my_name() + ": " + words_of(error);
     };
     try {
         if (const auto* steps = std::get_if<Questions<Step>>(&ask.questions)) {
