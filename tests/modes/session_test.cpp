@@ -158,22 +158,26 @@ TEST_F(SessionTest, LosesAPictureAndNoMoreToAMistake) {
     wait_for_picture(0);
     say(R"({"id": 7, "set": {"lihgt.samples": 2}})");
     ASSERT_TRUE(session_->wait_for("did you mean 'light'")) << session_->output();
+    say(R"({"id": 8, "cmaera": {}})");
+    ASSERT_TRUE(session_->wait_for("did you mean 'camera'")) << session_->output();
     say("no JSON");
     ASSERT_TRUE(session_->wait_for("malformed JSON")) << session_->output();
     say(R"({"set": {"lihgt.samples": null, "light.smaples": 2}})");
     ASSERT_TRUE(session_->wait_for("did you mean 'samples'")) << session_->output();
     say(R"({"set": {"light.smaples": null}})");
-    wait_for_picture(4);
+    wait_for_picture(5);
     write(folder / "g.lua", "x = = 3\n");
     ASSERT_TRUE(session_->wait_for("g.lua")) << session_->output();
     ASSERT_TRUE(session_->wait_for("\"line\":1")) << session_->output();
     write(folder / "g.lua", graph_text);
-    wait_for_picture(6);
+    wait_for_picture(7);
     EXPECT_TRUE(now() == fresh());
-    const auto all = events();
-    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Tree& event) {
-        return event["event"] == "error" && event.value("id", 0) == 7;
-    })) << session_->output();
+    for (const int id : {7, 8}) {
+        const auto all = events();
+        EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Tree& event) {
+            return event["event"] == "error" && event.value("id", 0) == id;
+        })) << session_->output();
+    }
     EXPECT_EQ(end(), 0);
 }
 
@@ -202,6 +206,14 @@ TEST_F(SessionTest, KeepsItsBytesOnDaemonsOneOfWhichIsLost) {
     wait_for_picture(2);
     EXPECT_TRUE(now() == fresh("samples = 1", "samples = 3"));
     EXPECT_EQ(end(), 0);
+}
+
+TEST_F(SessionTest, EndsWithoutRenderingAnewWhatIsFinished) {
+    begin();
+    wait_for_picture(0);
+    say(R"({"end": true})");
+    EXPECT_EQ(session_->wait(), 0) << session_->output();
+    for (const auto& event : events()) EXPECT_TRUE(event["event"] != "picture" || event["edit"] == 0) << event;
 }
 
 TEST_F(SessionTest, IsOverWhenItIsTold) {

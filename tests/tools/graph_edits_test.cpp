@@ -78,6 +78,13 @@ TEST_F(GraphEditsTest, SayWhatIsWrongWithALine) {
     EXPECT_THAT(mistake_in(R"({"end": "yes"})"), HasSubstr("'end': "));
 }
 
+TEST_F(GraphEditsTest, KeepTheirIdsWhateverIsWrongWithThem) {
+    EXPECT_EQ(id_of(R"({"id": 7, "cmaera": {}})"), "7");
+    EXPECT_EQ(id_of(R"({"id": {"a": "b"}, "set": 3})"), R"({"a":"b"})");
+    EXPECT_EQ(id_of("no JSON"), "");
+    EXPECT_EQ(id_of("[7]"), "");
+}
+
 TEST_F(GraphEditsTest, NameNodesThatAreNotThere) {
     say(R"({"set": {"lihgt.samples": 8, "samples": 3, "light.": 2}})");
     edited();

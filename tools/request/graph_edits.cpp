@@ -45,7 +45,6 @@ std::string text_of(const std::string& name, const Json& json) {
 }
 
 void take_member(const std::string& name, const Json& value, Edit& edit) {
-    if (name == "id") edit.id = to_text(JsonTree(value));
     if (name == "end") edit.end = value.flag();
     if (name == "camera") edit.camera = value_or_none(value);
     if (name == "scene") edit.scene = is_null(value) ? "" : value.text();
@@ -87,6 +86,13 @@ void set_param(const std::string& path, const Value& value, Graph& graph, std::v
 }
 
 }  // namespace
+
+std::string id_of(std::string_view line) try {
+    const Json json = parse_json(line);
+    return json.is_object() && json.has("id") ? to_text(JsonTree(json.at("id"))) : "";
+} catch (const JsonError&) {
+    return "";
+}
 
 Edit edit_of(std::string_view line) {
     const std::vector<std::string> known{"id", "end", "set", "camera", "scene", "constants"};

@@ -24,14 +24,18 @@ struct GraphEdits {
 /// One line of a session: {"id": …, "set": {"key.gain": 2, "image.samples": null}, "camera": {…}, "scene": "x.glb",
 /// "constants": {"rays": 64}, "end": true}. Null takes back what was said. A value.
 struct Edit {
-    std::string id;    // as JSON, for those who wait for an answer; "": none
     bool end = false;  // the session is over when the picture is there
     std::map<std::string, std::optional<std::string>> constants;
     std::map<std::string, std::optional<Value>> params;
     std::optional<std::optional<Value>> camera;
     std::optional<std::string> scene;  // "": the graph's again
+
+    /// False: it only ends the session.
+    bool changes() const { return !constants.empty() || !params.empty() || camera || scene; }
 };
 
+/// By what those who wait for an answer know the line, as JSON; "": nothing, also where the line is none.
+std::string id_of(std::string_view line);
 /// Throws Error that says what is wrong with the line.
 Edit edit_of(std::string_view line);
 void take(const Edit& edit, GraphEdits& edits);

@@ -80,48 +80,53 @@ public:
         queue_.watch(files_);
         while (true) {
             const int code = render();
-            if (stopped()) return leave(exit_code::interrupted);
-            if (!events_.sound()) return exit_code::failed;
-            if (ends_ && !queue_.signals().superseded) return leave(code);
-            queue_.wait();
-            if (stopped()) return leave(exit_code::interrupted);
-            if (!take_news()) return leave(code);
+            for (bool wanted = false; !wanted; wanted = take_news()) {
+                if (stopped()) return leave(exit_code::interrupted);
+                if (!events_.sound()) return exit_code::failed;
+                if (ends_ && !queue_.signals().superseded) return leave(code);
+                queue_.wait();
+            }
         }
     }
 
 private:
-    // False: nothing is new, and nothing can be.
+    // False: the picture stays as it is.
     bool take_news() {
         const auto news = queue_.take();
         ends_ |= news.ended;
-        if (news.lines.empty() && news.files.empty()) return !ends_;
+        if (news.lines.empty() && news.files.empty()) return false;
         edited_ = Clock::now();
         if (!news.files.empty()) events_.begin("");
         const bool scene_too = news.files.size() > 1 || !news.files.contains(graph_);
         if (!news.files.empty() && scene_too) handover_.forget_files();
-        for (const auto& line : news.lines) take_line(line);
-        return true;
+        bool wanted = !news.files.empty() || !finished_;
+        for (const auto& line : news.lines) wanted |= take_line(line);
+        return wanted;
     }
 
-    void take_line(const std::string& line) {
+    // Whether it asks for another picture.
+    bool take_line(const std::string& line) {
+        events_.begin(id_of(line));
         try {
             const Edit edit = edit_of(line);
-            events_.begin(edit.id);
             take(edit, edits_);
             ends_ |= edit.end;
+            return edit.changes() || !edit.end;
         } catch (const Error& error) {
-            events_.begin("");
             events_.tell(UserError({"edit", 0}, error.what()));
+            return false;
         }
     }
 
     int render() {
         int code = exit_code::usage;
+        finished_ = false;
         try {
             RunRequest request = session_.request(edits_);
             files_.insert(request.scene);
             request.shown = [this, &request](const PictureShown& shown) { tell(request, shown); };
             code = run(request, registry_, &handover_, queue_.signals());
+            finished_ = code == exit_code::done;
         } catch (const UserError& error) {
             events_.tell(error);
         } catch (const Error& error) {
@@ -184,7 +189,8 @@ private:
     std::optional<WatchServer> server_;  // before those whom it calls are gone
     Events events_;
     Clock::time_point edited_ = Clock::now();
-    bool ends_ = false;  // with the picture at work
+    bool ends_ = false;      // with the picture at work
+    bool finished_ = false;  // the picture of all edits so far
 };
 
 }  // namespace
