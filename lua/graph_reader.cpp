@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "core/base/spare_threads.hpp"
-#include "core/network/graph/json.hpp"
+#include "lua/answer.hpp"
 
 namespace lightnet {
 namespace {
@@ -76,7 +76,6 @@ std::string pack(const std::string& file, const LuaOptions& options) {
                             {"asked", options.frame.asked}});
 }
 
-// Problems, and behind a line break the graph, if the file came to its end.
 std::string answer_to(const std::string& question) {
     const Json json = parse_json(question);
     LuaOptions options;
@@ -89,9 +88,9 @@ std::string answer_to(const std::string& question) {
         options.constants.emplace(name, text_from_json(value));
     try {
         const GraphFile read = read_graph(text_from_json(json.at("file")), options);
-        return to_json(read.problems) + "\n" + to_json(read.graph);
+        return lua::pack({to_json(read.graph), read.problems});
     } catch (const UserError& error) {
-        return to_json(error.problems()) + "\n";
+        return lua::pack({"", error.problems()});
     }
 }
 
@@ -146,9 +145,7 @@ GraphFile GraphReader::read(const std::string& file, const LuaOptions& options) 
     std::optional<std::string> answer;
     if (send_text(child_->socket, pack(file, options))) answer = receive_text(child_->socket);
     if (!answer) throw UserError({file, 0}, "can't be read: the process that evaluates graphs is gone");
-    const auto end = answer->find('\n');
-    auto problems = problems_from_json(std::string_view(*answer).substr(0, end));
-    const auto graph = answer->substr(end + 1);
+    auto [graph, problems] = lua::unpack(*answer);
     if (graph.empty()) throw UserError(std::move(problems));
     return {graph_from_json(graph), std::move(problems)};
 }

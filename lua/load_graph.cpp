@@ -9,6 +9,7 @@
 #include "core/base/in_quotes.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/json.hpp"
+#include "lua/answer.hpp"
 #include "lua/child.hpp"
 #include "lua/files.hpp"
 #include "lua/graph_script.hpp"
@@ -18,24 +19,11 @@
 namespace lightnet {
 namespace {
 
-/// What a child answers: the value's JSON ("" when the file didn't come to its end), and what is wrong.
-struct Answer {
-    std::string value;
-    std::vector<Problem> problems;
-};
+using lua::Answer;
 
 constexpr std::size_t beside_lua = std::size_t{256} << 20;  // bytes for what a file's values become
 
 using Text = std::function<std::string()>;  // read in the child, so that an endless file costs only the child
-
-// A JSON text has no line break in it, so one keeps the two apart.
-std::string pack(const Answer& answer) { return to_json(answer.problems) + "\n" + answer.value; }
-
-Answer unpack(const std::string& text) {
-    const auto end = text.find('\n');
-    if (end == std::string::npos) throw Error("malformed answer");
-    return {text.substr(end + 1), problems_from_json(std::string_view(text).substr(0, end))};
-}
 
 template <class Script>
 Answer run_script(const std::string& file, const Text& text, const LuaOptions& options) {
@@ -61,7 +49,7 @@ Answer evaluate(const std::string& file, const Text& text, const LuaOptions& opt
     const lua::Budget budget{options.cpu_seconds, options.wall_seconds, options.memory + beside_lua};
     Answer answer;
     try {
-        answer = unpack(lua::in_child(budget, [&] { return pack(run_script<Script>(file, text, options)); }));
+        answer = lua::unpack(lua::in_child(budget, [&] { return lua::pack(run_script<Script>(file, text, options)); }));
     } catch (const Error& error) {
         throw UserError({file, 0}, error.what());
     }

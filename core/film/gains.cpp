@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "core/base/between_commas.hpp"
 #include "core/base/error.hpp"
 #include "core/base/in_quotes.hpp"
 #include "core/base/joined.hpp"
@@ -23,16 +24,6 @@ std::optional<float> gain_number(std::string_view text) {
     if (wrong != std::errc() || end != text.data() + text.size()) return std::nullopt;
     if (!std::isfinite(number) || number < 0) return std::nullopt;
     return number;
-}
-
-std::vector<std::string_view> between_commas(std::string_view text) {
-    std::vector<std::string_view> parts;
-    for (std::size_t at = 0; at <= text.size();) {
-        const auto comma = std::min(text.find(',', at), text.size());
-        parts.push_back(text.substr(at, comma - at));
-        at = comma + 1;
-    }
-    return parts;
 }
 
 // "direct.key": the light of a group of lamps by way of a node.
@@ -65,7 +56,7 @@ Gain gain_of(std::string_view text) {
     };
     if (equals == std::string_view::npos || equals == 0) throw wrong();
     std::vector<float> numbers;
-    for (const auto part : between_commas(text.substr(equals + 1))) {
+    for (const auto& part : between_commas(text.substr(equals + 1))) {
         const auto number = gain_number(part);
         if (!number) throw wrong();
         numbers.push_back(*number);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/allowance.hpp"
+#include "core/base/between_commas.hpp"
 #include "core/base/plain_file.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/check_hosts.hpp"
@@ -66,12 +67,9 @@ void give_places_here(Hosts& hosts) {
 // A hosts file, or nothing but addresses: "tcp://a:7777,tcp://b:7777".
 Hosts named_hosts(const std::string& text) {
     Hosts hosts;
-    for (std::size_t at = 0; at <= text.size();) {
-        const auto end = std::min(text.find(',', at), text.size());
-        const auto name = text.substr(at, end - at);
+    for (const auto& name : between_commas(text)) {
         if (!address_of(name)) return load_hosts(text);
         hosts.hosts.push_back({name, {}, 0, {text, 0}});
-        at = end + 1;
     }
     return hosts;
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <utility>
 
+#include "core/base/between_commas.hpp"
 #include "core/base/error.hpp"
 #include "core/base/in_quotes.hpp"
 #include "core/base/suggestion.hpp"
@@ -124,9 +125,8 @@ std::optional<double> bytes_called(const std::string& text) {
 }
 
 std::optional<LineCost> line_called(const std::string& text, LineCost usual) {
-    for (std::size_t at = 0; at <= text.size();) {
-        const auto end = std::min(text.find(',', at), text.size());
-        const auto amount = amount_in(text.substr(at, end - at));
+    for (const auto& part : between_commas(text)) {
+        const auto amount = amount_in(part);
         if (!amount) return std::nullopt;
         const auto rate = times_of_unit(amount->unit, {{"kbit", 125}, {"Mbit", 125e3}, {"Gbit", 125e6}});
         const auto time = times_of_unit(amount->unit, {{"us", 1e-6}, {"ms", 1e-3}, {"s", 1}});
@@ -136,7 +136,6 @@ std::optional<LineCost> line_called(const std::string& text, LineCost usual) {
             usual.seconds = *time * amount->number;
         else
             return std::nullopt;
-        at = end + 1;
     }
     return usual;
 }

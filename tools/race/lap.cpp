@@ -19,7 +19,6 @@
 #include "core/film/tone.hpp"
 #include "tools/pictures/compare.hpp"
 #include "tools/pictures/error_curve.hpp"
-#include "tools/session/delivery.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/run_report.hpp"
 
@@ -81,19 +80,11 @@ Track::Track(std::function<int(const RunRequest&)> run, const std::string& refer
         } catch (const Error& error) {
             throw UserError({reference, 0}, std::string("can't be read: ") + error.what());
         }
-    std::error_code ignored;
-    folder_ = new_folder_in(fs::temp_directory_path(ignored).string());
-    if (folder_.empty()) throw Error("there is no folder for temporary files");
-}
-
-Track::~Track() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
 }
 
 Lap Track::lap(const Contestant& contestant, std::uint64_t seed, bool pictures) {
     RunRequest request = contestant.request;
-    const fs::path picture = fs::path(folder_) / "picture.exr", csv = fs::path(folder_) / "curve.csv";
+    const fs::path picture = fs::path(folder_.path()) / "picture.exr", csv = fs::path(folder_.path()) / "curve.csv";
     request.output = picture.string();
     request.seed = seed;
     request.forget = true;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/temporary_folder.hpp"
 #include "core/film/picture.hpp"
 #include "tools/request/run_request.hpp"
 
@@ -48,7 +49,6 @@ public:
     Track(std::function<int(const RunRequest&)> run, const std::string& reference);
     Track(const Track&) = delete;
     Track& operator=(const Track&) = delete;
-    ~Track();
 
     /// `pictures`: keeps them. Throws Error where the run fails, and Interrupted where it is told to end.
     Lap lap(const Contestant& contestant, std::uint64_t seed, bool pictures);
@@ -62,7 +62,8 @@ private:
     void measure(Lap& lap, const Picture& picture, bool pictures) const;
 
     std::function<int(const RunRequest&)> run_;
-    std::string reference_, folder_;
+    std::string reference_;
+    TemporaryFolder folder_{"race"};
     std::optional<Picture> truth_;
 };
 

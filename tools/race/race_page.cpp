@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/base64.hpp"
 #include "tools/race/race_text.hpp"
 
 namespace lightnet {
@@ -51,18 +52,6 @@ std::string escaped(std::string_view text) {
                 safe += c;
         }
     return safe;
-}
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? letters[three >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
 }
 
 std::string figure(const std::string& png, const std::string& caption) {

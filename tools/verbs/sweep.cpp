@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/atomic_file.hpp"
+#include "core/base/between_commas.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
 #include "tools/cli/frames.hpp"
@@ -61,16 +62,6 @@ void describe_sweep(CLI::App& app, SweepOptions& options) {
                   "N", 1, 1024);
     app.add_option("--csv", options.csv, "write the numbers as well")->type_name("FILE.csv");
     add_examples(app, {"lightnet sweep graphs/cornell.lua -D samples=16,64 --seed 1-5 --reference ref.exr"});
-}
-
-std::vector<std::string> between_commas(const std::string& text) {
-    std::vector<std::string> parts;
-    for (std::size_t at = 0; at <= text.size();) {
-        const auto comma = std::min(text.find(',', at), text.size());
-        parts.push_back(text.substr(at, comma - at));
-        at = comma + 1;
-    }
-    return parts;
 }
 
 // The last constant changes first.

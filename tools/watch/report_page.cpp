@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/base64.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json.hpp"
 #include "core/base/json_tree.hpp"
@@ -30,19 +31,9 @@ std::uint32_t packed(const Rgb& colour) {
     return word;
 }
 
-std::string base64(const std::vector<std::uint32_t>& words) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+std::string_view bytes_of(const std::vector<std::uint32_t>& words) {
     static_assert(std::endian::native == std::endian::little);
-    const auto* const bytes = reinterpret_cast<const unsigned char*>(words.data());
-    const std::size_t size = words.size() * sizeof words[0];
-    std::string text;
-    text.reserve(size * 4 / 3 + 4);
-    for (std::size_t i = 0; i < size; i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < size ? bytes[i + k] : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k > size ? '=' : letters[three >> (18 - 6 * k) & 63];
-    }
-    return text;
+    return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof words[0]};
 }
 
 std::vector<const std::vector<Rgb>*> colours_of(const Picture& picture) {
@@ -65,8 +56,10 @@ JsonTree frozen_picture(const Picture& picture, std::size_t most_bytes) {
     for (std::uint32_t y = 0; y < picture.height; y += step)
         for (std::uint32_t x = 0; x < picture.width; x += step)
             for (const auto* colour : colours) words.push_back(packed((*colour)[std::size_t{y} * picture.width + x]));
-    return {
-        {"width", part(picture.width)}, {"height", part(picture.height)}, {"step", step}, {"pixels", base64(words)}};
+    return {{"width", part(picture.width)},
+            {"height", part(picture.height)},
+            {"step", step},
+            {"pixels", base64(bytes_of(words))}};
 }
 
 JsonTree noted(const std::string& text) try {
