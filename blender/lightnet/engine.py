@@ -62,6 +62,8 @@ class LightnetEngine(bpy.types.RenderEngine):
     def render(self, depsgraph):
         """Called in a thread of Blender's, for each frame and view layer."""
         layer, (width, height) = depsgraph.view_layer.name, size_of(depsgraph.scene)
+        for name, channels, letters, _ in own_passes_of(depsgraph.scene, depsgraph.view_layer):
+            self.add_pass(name, channels, letters, layer=layer)
         self.end_result(self.begin_result(0, 0, width, height, layer=layer))  # Blender can't write a picture without
         try:
             self._render(depsgraph)
@@ -174,8 +176,7 @@ def passes_of(scene, layer):
     settings = scene.lightnet
     letters = {"Depth": "Z", "Normal": "XYZ", "Position": "XYZ", "UV": "UVA", "DiffCol": "RGB"}
     kinds = {"Depth": "VALUE", "Normal": "VECTOR", "Position": "VECTOR", "UV": "VECTOR", "DiffCol": "COLOR"}
-    if settings.clean:
-        yield "Noisy Image", 4, "RGBA", "COLOR"
+    yield from own_passes_of(scene, layer)
     for name in facts_of(layer) if settings.lighting != "file" else ():
         if name in letters:
             yield name, len(letters[name]), letters[name], kinds[name]
@@ -184,10 +185,17 @@ def passes_of(scene, layer):
                 yield f"{name}{index:02d}", 4, "RGBA", "COLOR"
     if layer.use_pass_emit:
         yield "Emit", 3, "RGB", "COLOR"
-    groups = sorted(plain(group.name) for group in layer.lightgroups)
-    for group in groups:
+    for group in sorted(plain(group.name) for group in layer.lightgroups):
         yield f"Combined_{group}", 3, "RGB", "COLOR"
+
+
+def own_passes_of(scene, layer):
+    """Those of them that Blender knows nothing of, and has to be told of before each render as well."""
+    settings = scene.lightnet
+    if settings.clean:
+        yield "Noisy Image", 4, "RGBA", "COLOR"
     if settings.layers:
+        groups = sorted(plain(group.name) for group in layer.lightgroups)
         operators = {"path": ["direct", "bounce"], "direct": ["direct"], "progressive": ["direct", "indirect"],
                      "figure5": ["direct", "caustics", "soft"]}.get(settings.lighting, [])
         for operator in ["emission", *operators]:

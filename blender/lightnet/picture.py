@@ -35,6 +35,8 @@ class Picture:
         found = {"Combined": self.combined()}
         for name, pixels in self.layers.items():
             found["Layer " + name] = pixels
+            if "." not in name:  # without groups, all is of the rest
+                found[f"Layer {name}.rest"] = pixels
             if name.split(".")[0] == "emission":
                 found["Emit"] = found.get("Emit", 0) + pixels
         for group in groups:

@@ -1,15 +1,13 @@
 """Script for Blender: renders scenes by Cycles and by lightnet, and says how far the pictures are from each other.
 
 blender -b --factory-startup --python against_cycles.py -- [--sheet SHEET.png] [SCENE ...]
-Ends with 1 where a mean is off by more than 2 %, or a block of 8 x 8 pixels by more than 5 % (root of the mean square,
-over the mean of the picture).
+Ends with 1 where a mean is off by more than 2 %, or blocks of 8 x 8 pixels by more than 5 % (the root of the mean square
+over all of them, by the mean of the picture).
 """
 
 import os
 import sys
 import tempfile
-
-
 
 import addon_utils
 import bpy

@@ -48,6 +48,14 @@ TEST_F(CleanRun, IsWhatTheVerbMakesLater) {
     EXPECT_TRUE(std::filesystem::exists(folder / "later.png"));
 }
 
+TEST_F(CleanRun, GivesItsNumbersAsArraysToo) {
+    render({"--threads", "1", "--npz", folder / "x.npz"});
+    made({"remix", folder / "x.clean.exr", "--keep-gains", "-o", folder / "y.exr", "--npz", folder / "y.npz"});
+    const auto arrays = bytes_of(folder / "x.clean.npz");
+    EXPECT_TRUE(arrays == bytes_of(folder / "y.npz"));
+    EXPECT_FALSE(arrays == bytes_of(folder / "x.npz"));
+}
+
 TEST_F(CleanRun, ChangesNoLayerOfTheNoisyPicture) {
     render({"--threads", "2"});
     Process plain(launch_words(graph_file("cornell.lua"), folder / "plain.exr",

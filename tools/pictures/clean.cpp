@@ -4,8 +4,10 @@
 
 namespace lightnet {
 
-std::string clean_beside(const std::string& exr) {
-    return std::filesystem::path(exr).replace_extension(".clean.exr").string();
+std::string clean_beside(const std::string& file) {
+    std::filesystem::path path(file);
+    const auto ending = path.extension().string();
+    return path.replace_extension(".clean" + ending).string();
 }
 
 }  // namespace lightnet

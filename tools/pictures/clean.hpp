@@ -5,7 +5,7 @@
 
 namespace lightnet {
 
-/// x.exr → x.clean.exr
-std::string clean_beside(const std::string& exr);
+/// x.exr → x.clean.exr, x.npz → x.clean.npz
+std::string clean_beside(const std::string& file);
 
 }  // namespace lightnet

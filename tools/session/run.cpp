@@ -232,6 +232,7 @@ int Run::perform() {
         if (const auto why = why_not_replaced(request_.trace, trace_beginning); !why.empty())
             throw UserError({request_.trace, 0}, why);
     if (!request_.arrays.empty()) check_arrays(request_.arrays);
+    if (!request_.arrays.empty() && format_.halves()) check_arrays(clean_beside(request_.arrays));
     if (!request_.report.empty()) check_report(request_.report);
     const PictureLock lock(request_.output);
     open_to_watchers();

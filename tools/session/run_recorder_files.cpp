@@ -58,6 +58,12 @@ void RunRecorder::write_clean(const std::string& exr) {
     write_exr(file, cleaned.picture);
     write_png(png_beside(file), cleaned.picture, png_view(png_, brightness_, exposed_));
     report_.outputs.insert(report_.outputs.end(), {file, png_beside(file).string()});
+    if (!arrays_.empty()) {
+        const auto arrays = clean_beside(arrays_);
+        expect_ours(arrays, npz_beginning);
+        write_npz(arrays, cleaned.picture);
+        report_.outputs.push_back(arrays);
+    }
     report_.settings["clean"] =
         fmt::format("{:.2f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
 }
