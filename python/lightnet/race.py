@@ -4,6 +4,7 @@ import csv
 import os
 
 from . import graph, program
+from .errors import UserError
 
 
 class Race:
@@ -29,7 +30,7 @@ class Race:
 
 def race(graphs, reference, seconds=60, seeds=3, **options):
     """Lets graphs render for so many seconds each, in turns, once for each seed, and returns a Race. `graphs`: a dict of
-    what render() takes, by the names that curves get. `reference`: a file, or a Picture. Options are those of
+    nodes that make an image, by the names that curves get. `reference`: a file, or a Picture. Options are those of
     `lightnet race`. Raises UserError or Error."""
     with program.folder() as folder:
         words = [_written(name, one, folder) for name, one in graphs.items()]
@@ -48,6 +49,8 @@ def race(graphs, reference, seconds=60, seeds=3, **options):
 
 def _written(name, one, folder):
     """A graph as a file of this name."""
+    if not isinstance(one, graph.Node):
+        raise UserError(f"race: {name!r} must be a node that makes an image; graph files race by `lightnet race`")
     file = os.path.join(folder, name + ".json")
     with open(file, "w", encoding="utf-8") as out:
         out.write(graph.as_json(one, folder))

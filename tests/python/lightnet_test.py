@@ -229,6 +229,10 @@ class Sessions(InFolder):
 
 
 class Races(InFolder):
+    def test_a_race_is_one_of_nodes(self):
+        with self.assertRaisesRegex(ln.UserError, "'file' must be a node"):
+            ln.race({"file": str(GRAPHS / "cornell.lua")}, "no.exr")
+
     def test_hold_graphs_against_a_reference(self):
         truth = ln.render(cornell(), samples=256)
         scene = ln.Scene(GRAPHS / "cornell_box.pbrt")
