@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <sstream>
 
 #include "tests/architecture/project_files.hpp"
 #include "tests/architecture/rules.hpp"
@@ -72,6 +73,17 @@ TEST(Project, HasDocumentsThatShowItsCode) {
     for (const char* document : {"README.md", "CONTRIBUTING.md"})
         EXPECT_THAT(stale_cuts(read(document), all_files()), IsEmpty());
 }
+
+// Lines "path Class members" of class_debts.txt.
+std::map<std::string, std::size_t> class_debts() {
+    std::map<std::string, std::size_t> debts;
+    std::istringstream lines(read("tests/architecture/class_debts.txt").text);
+    std::string path, name;
+    for (std::size_t members = 0; lines >> path >> name >> members;) debts[path + " " + name] = members;
+    return debts;
+}
+
+TEST(Project, HasClassesThatFitInAHead) { EXPECT_THAT(too_large(product(), 25, class_debts()), IsEmpty()); }
 
 TEST(Project, HasShortFiles) {
     Complaints all;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +54,18 @@ Complaints stale_cuts(const SourceFile& document, const std::vector<SourceFile>&
 /// Types that two files define under one name: two that differ break each other wherever both are linked. Those in
 /// nameless namespaces are each file's own.
 Complaints repeated_types(const std::vector<SourceFile>& files);
+
+/// A class, and how many members it has: functions and data, its own types and aliases left out.
+struct ClassSize {
+    std::string name, path;
+    std::size_t line, members;
+};
+std::vector<ClassSize> class_sizes(const SourceFile& file);
+
+/// Classes of more than `most` members, but for the debts: "path Class" and exactly as many as it has, so that who
+/// makes one smaller lowers its debt, and nobody raises it unseen.
+Complaints too_large(const std::vector<SourceFile>& files, std::size_t most,
+                     const std::map<std::string, std::size_t>& debts);
 
 /// `text` with its comments and the contents of its string literals blanked; lines stay where they are.
 std::string code_only(std::string_view text);

@@ -163,6 +163,34 @@ TEST(Files, AreShort) {
     EXPECT_THAT(too_long({"core/x.cpp", "1\n2\n3\n4\n"}, 3), SizeIs(1));
 }
 
+TEST(Classes, HaveTheirMembersCounted) {
+    const auto members = [](const std::string& code) {
+        const auto sizes = class_sizes({"core/x.hpp", code});
+        return sizes.empty() ? std::string("none") : sizes[0].name + " " + std::to_string(sizes[0].members);
+    };
+    EXPECT_EQ(members("class A final : public B { public: A(); int f() const { if (x) { return 1; } return 2; }\n"
+                      "private: std::map<int, C> c_ = {}; double a = 0, b{}; };"),
+              "A 4");
+    EXPECT_EQ(members("struct A { A(const A&) = delete; ~A() = default; using T = int; friend class B; enum class E { "
+                      "a };\n struct C { int x; } c; class D; template <class T> void f(T t) { t({}); } };"),
+              "A 2");
+    EXPECT_EQ(members("struct A { std::function<void()> f; // g();\n std::vector<int> v{1, 2}; "
+                      "A(int x) : v{x} {} };"),
+              "A 3");
+    EXPECT_EQ(members("struct Out::A { bool operator()(int a) const { return a < 1; } int b; };"), "Out::A 2");
+    EXPECT_EQ(members("class A; enum class B { c }; template <class T> void f(T);"), "none");
+}
+
+TEST(Classes, AreSmallButForDebts) {
+    const SourceFile file{"core/x.hpp", "struct Big { int a; int b; int c; };\nstruct Small { int a; };\n"};
+    EXPECT_THAT(too_large({file}, 3, {}), IsEmpty());
+    EXPECT_THAT(too_large({file}, 2, {}), ElementsAre("core/x.hpp:1: Big has 3 members, and 2 are allowed"));
+    EXPECT_THAT(too_large({file}, 2, {{"core/x.hpp Big", 3}}), IsEmpty());
+    EXPECT_THAT(too_large({file}, 2, {{"core/x.hpp Big", 4}}), ElementsAre("the debt of core/x.hpp Big falls to 3"));
+    EXPECT_THAT(too_large({file}, 3, {{"core/x.hpp Big", 4}}), ElementsAre(HasSubstr("its line goes")));
+    EXPECT_THAT(too_large({file}, 3, {{"core/x.hpp Gone", 4}}), ElementsAre(HasSubstr("its line goes")));
+}
+
 TEST(Documents, ShowCodeAsItStandsInTheFile) {
     const std::vector<SourceFile> files{{"nodes/x.cpp", "// x\nint a;\nint b;\n"}};
     const std::string begin = "text\n<!-- cut from nodes/x.cpp -->\n```cpp\n", end = "```\nmore\n";
