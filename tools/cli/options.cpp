@@ -225,7 +225,7 @@ void add_running(CLI::App& verb, RunningOptions& running) {
     takes_one_of(verb.add_option("--compression", running.picture.compression,
                                  "how the EXR is packed, instead of the graph's; all lose nothing"),
                  lossless_compressions());
-    add_arrays(verb, running.picture.arrays);
+    add_arrays(verb, running.arrays);
     add_gains(verb, "--gain", running.picture.gains, "times which a layer is in the picture (may be repeated)");
     verb.add_option_function<std::string>(
             "--progress", [&running](const std::string& text) { running.progress = *progress_mode(text); },

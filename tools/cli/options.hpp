@@ -51,22 +51,18 @@ struct PictureOptions {
     bool alpha = false;       // what surrounds the scene is left out, and the part of pixels that it covers kept
     std::string compression;  // of the file; "": as the graph says
     std::string output;       // file; "": as the graph says
-    std::string arrays;       // file with the same as arrays; "": none
 };
 
-/// What all verbs that make a picture take.
-struct RunningOptions {
+/// What all verbs that make a picture take: what the run takes as it is said, and what has to be worked out first.
+struct RunningOptions : RunSettings {
     PictureOptions picture;
     std::string hosts;                           // file; "": none
     std::string layout, layout_out;              // "auto", "auto=X.run.json"; a hosts file to write. "": none
     std::vector<std::string> layout_memory;      // "16G", "NAME=16G"
     std::optional<std::uint32_t> threads;        // places in this process; 1: serial
     std::optional<std::uint32_t> local_workers;  // daemons to start here
-    FaultInjection troubles;                     // of these
-    std::string listen;                          // endpoint where hosts may join
     std::string key;                             // file with our own; "": the usual one
     std::string allow;                           // whose hosts may join, see AllowFile; "": who knows the pass
-    std::string pass;                            // file with what hosts must know to join; "": the usual one
     bool insecure = false;                       // even beyond this machine
     std::optional<int> wait;                     // seconds for hosts to come or, if given, to be free; none: 30
     std::optional<std::uint32_t> slurm;          // daemons to start as a job array
@@ -74,19 +70,6 @@ struct RunningOptions {
     std::vector<std::string> ssh;  // machines on which to start daemons, as ssh calls them
     std::string ssh_command = "ssh -T -o BatchMode=yes -o ConnectTimeout=10";
     std::string ssh_daemon;  // lightnetd there; "": as here, or else in the PATH there
-    std::uint64_t seed = 0;
-    ProgressMode progress = ProgressMode::automatic;
-    std::string trace;                   // file for what places were busy with; "": none
-    std::optional<WatchAddress> watch;   // none: nobody can watch
-    std::string report;                  // file; "": none
-    double preview = 0;                  // seconds between two pictures of what is there; 0: none
-    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
-    bool resume = false;                 // from a checkpoint
-    bool forget = false;                 // it, when the picture is finished
-    double time_limit = 0;               // seconds; 0: none
-    std::string reference, curve;        // files; "": none
-    PngRequest png;                      // beside the picture
-    Tuning tuning;
 };
 
 void add_graph(CLI::App& verb, GraphOptions& graph);

@@ -21,7 +21,7 @@ void check_together(const RunningOptions& running) {
     for (const auto& [option, file] : {std::pair("--report", &running.report),
                                        {"--trace", &running.trace},
                                        {"--csv", &running.curve},
-                                       {"--npz", &running.picture.arrays}})
+                                       {"--npz", &running.arrays}})
         if (!file->empty() && !has_frame_place(*file)) {
             const std::filesystem::path path(*file);
             const auto better = path.parent_path() / (path.stem().string() + ".####" + path.extension().string());
@@ -31,7 +31,7 @@ void check_together(const RunningOptions& running) {
 
 RunningOptions for_frame(const RunningOptions& running, int frame) {
     RunningOptions own = running;
-    for (auto* name : {&own.picture.output, &own.picture.arrays, &own.report, &own.trace, &own.curve, &own.reference})
+    for (auto* name : {&own.picture.output, &own.arrays, &own.report, &own.trace, &own.curve, &own.reference})
         *name = with_frame(*name, frame);
     return own;
 }

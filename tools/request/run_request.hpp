@@ -60,40 +60,45 @@ struct PictureShown {
     std::vector<std::string> warnings;  // of the run, so far
 };
 
+/// What a user may say of a run, and the run takes as it is said: an option of `run` is a member here, and a line where
+/// options are described.
+struct RunSettings {
+    std::uint64_t seed = 0;
+    bool resume = false;      // from the checkpoint beside the output, if there is one
+    bool forget = false;      // leave no checkpoint beside a finished picture
+    std::string listen;       // endpoint where hosts may join; "": nowhere
+    std::string pass;         // file with what hosts must know to join; "": the usual one
+    FaultInjection troubles;  // of local workers
+    Tuning tuning;
+    double time_limit = 0;  // seconds since the run began; 0: none
+    ProgressMode progress = ProgressMode::automatic;
+    double preview = 0;                  // seconds between two pictures of what is there; 0: none
+    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
+    std::optional<WatchAddress> watch;   // serve a page that shows the run
+    std::string report;                  // file of a page that shows what the run did; "": none
+    std::string trace;                   // file for what places were busy with; "": none
+    std::string arrays;                  // file for the picture as arrays of NumPy; "": none
+    PngRequest png;                      // beside the picture
+    std::string reference, curve;        // a picture to be compared with, and a file for the errors; "": none
+};
+
 /// A run, ready to go.
-struct RunRequest {
+struct RunRequest : RunSettings {
     Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
     Hosts hosts;  // to be called, or that join by name; and places of this process
     Mode mode = Mode::serial;
     std::uint32_t threads = 0;                      // places in this process, as many as `hosts` names if it names any
     std::uint32_t local_workers = 0;                // mode network: daemons to start
     std::uint32_t local_places = 0;                 // of each; 0: as many as there are cores, dealt out
-    FaultInjection troubles;                        // of them
-    std::string listen;                             // mode network: endpoint where hosts may join; "": nowhere
     RunKeys keys;                                   // mode network: by which hosts and this process know each other
-    std::string pass;                               // file with what hosts must know to join; "": the usual one
     SlurmRequest slurm;                             // mode network
     SshRequest ssh;                                 // likewise; on which machines: see keys.ssh
     std::chrono::seconds wait{30};                  // for a host when a node has no place any more
     std::optional<std::chrono::seconds> busy_wait;  // for hosts that serve other runs; none: as long as it takes
-    bool resume = false;                            // from the checkpoint beside the output, if there is one
-    bool forget = false;                            // leave no checkpoint beside a finished picture
-    Tuning tuning;
-    std::string scene;                // file, as seen from here
-    std::shared_ptr<ReadScene> read;  // it, read already; the run takes it away. None: still to be read
-    std::string output;               // "x.exr", as seen from here
-    std::uint64_t seed = 0;
-    std::string trace;                   // file for what places were busy with; "": none
-    std::optional<WatchAddress> watch;   // serve a page that shows the run
-    std::string report;                  // file of a page that shows what the run did; "": none
-    std::string arrays;                  // file for the picture as arrays of NumPy; "": none
-    PngRequest png;                      // beside the picture
-    double time_limit = 0;               // seconds since the run began; 0: none
-    std::string reference, curve;        // a picture to be compared with, and a file for the errors; "": none
-    double preview = 0;                  // seconds between two pictures of what is there; 0: none
-    std::optional<WatchAddress> viewer;  // tev, to be shown the picture while it grows
-    ProgressMode progress = ProgressMode::automatic;
-    std::optional<FrameOfSequence> frame;  // none: a still
+    std::string scene;                              // file, as seen from here
+    std::shared_ptr<ReadScene> read;                // it, read already; the run takes it away. None: still to be read
+    std::string output;                             // "x.exr", as seen from here
+    std::optional<FrameOfSequence> frame;           // none: a still
     /// Is told whenever the picture was written, which then happens from its first sample on; none: it is written once.
     /// Called by the run's thread.
     std::function<void(const PictureShown&)> shown;
