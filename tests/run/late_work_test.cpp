@@ -25,7 +25,7 @@ TEST_F(LateWork, AsksElsewhereWhatIsOverdueAndTakesTheFirstAnswer) {
     EXPECT_TRUE(did<Scheduler::Accept>());
     reply(1, 0);
     EXPECT_TRUE(did<Scheduler::Drop>());
-    EXPECT_EQ(scheduler.copies_out(), 0u);
+    EXPECT_EQ(scheduler.in_flight().copies(), 0u);
 }
 
 TEST_F(LateWork, TakesTheAnswerOfAHangingReplicaWhenItIsTheFirstAfterAll) {

@@ -19,9 +19,9 @@ TEST_F(SchedulerOfHosts, ExpectsOfAHostThatItsPlacesShareWhatIsAheadAndOneDoesTh
     add(1);
     tick();
     reply(1, 0, 1.0, 12);
-    EXPECT_EQ(scheduler.places(), 4u);
-    EXPECT_NEAR(scheduler.completion_time(0, 2), 12 / 4 + 2, 1e-12);
-    EXPECT_NEAR(scheduler.service(), 1, 1e-12);
+    EXPECT_EQ(scheduler.replicas().places(), 4u);
+    EXPECT_NEAR(scheduler.order().completion_time(0, 2), 12 / 4 + 2, 1e-12);
+    EXPECT_NEAR(scheduler.order().times().mean(), 1, 1e-12);
 }
 
 TEST_F(SchedulerOfHosts, MeasuresAPlaceOfAHostHoweverManyWorkAtOnce) {
@@ -35,7 +35,7 @@ TEST_F(SchedulerOfHosts, MeasuresAPlaceOfAHostHoweverManyWorkAtOnce) {
             now = places == 1 ? double(work) : 1;  // one after the other, or all at once
             reply(work, 0);
         }
-        EXPECT_NEAR(scheduler.completion_time(0, 1), 1, places == 1 ? 1e-12 : 0.8) << places;
+        EXPECT_NEAR(scheduler.order().completion_time(0, 1), 1, places == 1 ? 1e-12 : 0.8) << places;
     }
 }
 
@@ -67,11 +67,11 @@ TEST_F(SchedulerOfHosts, GivesRegionsToHostsByTheirPlaces) {
     join({0, 0, 1, {}, 0, 1});
     join({1, 1, 2, {}, 0, 7});
     std::size_t large = 0;
-    for (std::uint64_t region = 0; region < 4000; ++region) large += scheduler.home(region) == 1;
+    for (std::uint64_t region = 0; region < 4000; ++region) large += scheduler.replicas().home(region) == 1;
     EXPECT_NEAR(double(large), 3500, 350);
     tell(Scheduler::Resized{1, 1, {}});
     std::size_t still = 0;
-    for (std::uint64_t region = 0; region < 4000; ++region) still += scheduler.home(region) == 1;
+    for (std::uint64_t region = 0; region < 4000; ++region) still += scheduler.replicas().home(region) == 1;
     EXPECT_NEAR(double(still), 2000, 600);
 }
 
@@ -80,12 +80,12 @@ TEST_F(SchedulerOfHosts, KeepsWhatAHostHasWhenItsPlacesChange) {
     add(1), add(2);
     EXPECT_EQ(tick(), (Replicas{0}));
     tell(Scheduler::Resized{0, 2, {2, 2000, 2000}});
-    EXPECT_EQ(scheduler.places(), 2u);
+    EXPECT_EQ(scheduler.replicas().places(), 2u);
     EXPECT_EQ(tick(), (Replicas{0}));
     reply(1, 0);
     EXPECT_TRUE(did<Scheduler::Accept>());
     tell(Scheduler::Gone{{0}});
-    EXPECT_EQ(scheduler.places(), 0u);
+    EXPECT_EQ(scheduler.replicas().places(), 0u);
 }
 
 TEST_F(SchedulerOfHosts, ForgetsWorkThatNobodyWants) {
@@ -93,7 +93,7 @@ TEST_F(SchedulerOfHosts, ForgetsWorkThatNobodyWants) {
     add(1), add(2);
     tick();
     tell(Scheduler::Forgotten{1}), tell(Scheduler::Forgotten{2});
-    EXPECT_EQ(scheduler.unfinished(), 0u);
+    EXPECT_EQ(scheduler.backlog().size(), 0u);
     EXPECT_EQ(tick(), (Replicas{})) << "its place is at it";
     reply(1, 0);
     EXPECT_TRUE(did<Scheduler::Drop>());

@@ -55,7 +55,7 @@ TEST_F(SchedulerTest, ExpectsCompletionFromOutstandingWorkFillLevelAndServiceTim
     add(1);
     tick();
     reply(1, 0, 2e-6, 5);
-    EXPECT_NEAR(scheduler.completion_time(0, 10), (5 + 10) * 2e-6, 1e-12);
+    EXPECT_NEAR(scheduler.order().completion_time(0, 10), (5 + 10) * 2e-6, 1e-12);
 }
 
 // Beside work of a thousand questions, a tenth of the time would outweigh all that lies before the faster one.
@@ -84,7 +84,7 @@ TEST_F(SchedulerTest, TrustsItsOwnClockMoreThanAnAnswererThatWaitsForOthers) {
     tick();
     now = 3;  // though the answerer says that it took a microsecond
     reply(1, 0, 1e-6);
-    EXPECT_NEAR(scheduler.completion_time(0, 1), 3, 1e-9);
+    EXPECT_NEAR(scheduler.order().completion_time(0, 1), 3, 1e-9);
 }
 
 TEST_F(SchedulerTest, DropsLateAndDoubledReplies) {
@@ -123,7 +123,7 @@ TEST_F(SchedulerTest, RunsSuspectsAloneAndConvictsAfterThreeDeathsAlone) {
         EXPECT_EQ(did<Scheduler::SetAside>(), death >= 4) << death;
     }
     EXPECT_EQ(alone, (std::set<Scheduler::WorkId>{1, 2}));
-    EXPECT_EQ(scheduler.unfinished(), 0u);
+    EXPECT_EQ(scheduler.backlog().size(), 0u);
 }
 
 TEST_F(SchedulerTest, BlamesNobodyForAHostThatComesBackAsTheSameProcess) {
@@ -195,7 +195,7 @@ TEST_F(SchedulerTest, WaitsForNoHostThatDrainsBeforeItTestsASuspect) {
     reply(2, 1);
     EXPECT_EQ(tick(), Replicas{});
     reply(1, 2);
-    EXPECT_EQ(scheduler.unfinished(), 0u);
+    EXPECT_EQ(scheduler.backlog().size(), 0u);
 }
 
 TEST_F(SchedulerTest, TakesTurnsWhenToldSo) {
@@ -224,7 +224,7 @@ TEST_F(SchedulerTest, SendsARegionHomeUnlessHomeIsOverloaded) {
     rules.strategy = Strategy::affinity;
     use(rules);
     for (Scheduler::Replica replica = 0; replica < 4; ++replica) join(replica, {100, 1000, 1000});
-    const auto home = scheduler.home(42);
+    const auto home = scheduler.replicas().home(42);
     for (Scheduler::WorkId work = 1; work <= 3; ++work) add(work, 0, 42);
     EXPECT_EQ(tick(), (Replicas{home, home, home}));
     for (Scheduler::WorkId work = 4; work <= 20; ++work) add(work, 0, 42);
@@ -238,11 +238,14 @@ TEST_F(SchedulerTest, MovesOnlyTheRegionsOfAReplicaThatGoes) {
     use(rules);
     for (Scheduler::Replica replica = 0; replica < 8; ++replica) join(replica);
     std::map<std::uint64_t, Scheduler::Replica> before;
-    for (std::uint64_t region = 0; region < 1000; ++region) before[region] = scheduler.home(region);
+    for (std::uint64_t region = 0; region < 1000; ++region)
+        before[region] = scheduler.replicas().home(region);
     tell(Scheduler::Gone{{3}, true});
-    for (const auto& [region, home] : before) EXPECT_TRUE(home == 3 || scheduler.home(region) == home) << region;
+    for (const auto& [region, home] : before)
+        EXPECT_TRUE(home == 3 || scheduler.replicas().home(region) == home) << region;
     join(3);
-    for (const auto& [region, home] : before) EXPECT_EQ(scheduler.home(region), home) << "and they come back with it";
+    for (const auto& [region, home] : before)
+        EXPECT_EQ(scheduler.replicas().home(region), home) << "and they come back with it";
 }
 
 // ---- failures ----
@@ -270,7 +273,7 @@ TEST_F(SchedulerTest, GivesUpWhatFailsAtASecondHost) {
     const auto second = tick();
     tell(Scheduler::Failed{copies.at({1, second[0]})});
     EXPECT_TRUE(did<Scheduler::GiveUp>());
-    EXPECT_EQ(scheduler.unfinished(), 0u);
+    EXPECT_EQ(scheduler.backlog().size(), 0u);
     EXPECT_TRUE(tick().empty());
 }
 

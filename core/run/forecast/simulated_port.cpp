@@ -56,7 +56,7 @@ SimulatedAsk SimulatedPort::take(std::size_t questions) {
 void SimulatedPort::send(std::size_t questions) { replicas_.add(take(questions)); }
 
 std::size_t SimulatedPort::full() const {
-    const double each = target_.own_seconds > 0 ? target_.own_seconds : replicas_.scheduler().work_of_each();
+    const double each = target_.own_seconds > 0 ? target_.own_seconds : replicas_.scheduler().order().times().said();
     return full_bundle(Tuning{}.bundle, each);
 }
 
@@ -64,14 +64,14 @@ void SimulatedPort::flush(bool idle) {
     if (target_.own_seconds > 0) return share_out();
     while (waiting_ >= full()) send(full());
     const bool old = events_.now() - oldest_ > 1e-6 * Tuning{}.oldest_us;
-    const bool eager = idle && replicas_.scheduler().copies_out() < Tuning{}.eager * replicas_.places();
+    const bool eager = idle && replicas_.scheduler().in_flight().copies() < Tuning{}.eager * replicas_.places();
     if (waiting_ > 0 && (old || eager)) send(waiting_);
 }
 
 void SimulatedPort::share_out() {
     while (waiting_ > 0) {
         const auto size = std::min({full(), std::max(waiting_ / (2 * (target_.helpers + 1)), least_bundle), waiting_});
-        const auto soonest = replicas_.scheduler().soonest(size);
+        const auto soonest = replicas_.scheduler().order().soonest(size);
         const double own = target_.own_seconds * static_cast<double>(waiting_);
         if (!soonest || *soonest > enough || *soonest > worth_waiting * own) return;
         send(size);

@@ -37,8 +37,8 @@ public:
     /// A replica, by the next number.
     void join(Scheduler::Host host, std::uint32_t places, bool within_process);
     void add(SimulatedAsk ask);
-    std::size_t size() const { return scheduler_.replicas(); }
-    std::size_t places() const { return scheduler_.places(); }
+    std::size_t size() const { return scheduler_.replicas().present(); }
+    std::size_t places() const { return scheduler_.replicas().places(); }
     const Scheduler& scheduler() const { return scheduler_; }
 
 private:

@@ -57,7 +57,7 @@ void MasterRenderer::append(const std::vector<Tile>& tiles) {
 // How many blocks of samples go together: fewer towards the end.
 // DECISIONS: quick-tiles-together
 MasterRenderer::Together MasterRenderer::together() const {
-    const double seconds = replicas_.scheduler().service();  // of one block at one place
+    const double seconds = replicas_.scheduler().order().times().mean();  // of one block at one place
     const auto most =
         std::min(job_.credit.questions / job_.credit.bundles, guided_share(left_, replicas_.places(), shares));
     if (seconds <= 0 || most < 2) return {};
@@ -76,7 +76,7 @@ void MasterRenderer::pass_next_tile() {
 
 // A tile that would take too long, into pieces; else only itself. What blocks of tiles cost is known of those lately.
 std::vector<Tile> MasterRenderer::cut(const Tile& tile) {
-    const double seconds = replicas_.scheduler().service();
+    const double seconds = replicas_.scheduler().order().times().mean();
     if (seconds <= 0 || pixels_ <= 0 || tile.rehearses() || cut_tiles_.is_piece(tile)) return {tile};
     const double each = seconds / pixels_;
     if (each * static_cast<double>(tile.pixels()) <= too_long) return {tile};

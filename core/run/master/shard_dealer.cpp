@@ -158,23 +158,23 @@ void ShardDealer::refused(CopyId id, Time now) {
 
 std::optional<Scheduler::CopyId> ShardDealer::known(CopyId id) const {
     const Scheduler::CopyId copy = id & ((CopyId{1} << bits_of_a_copy) - 1);
-    return id >> bits_of_a_copy == rounds_ && scheduler_.work_of(copy) ? std::optional(copy) : std::nullopt;
+    return id >> bits_of_a_copy == rounds_ && scheduler_.in_flight().work_of(copy) ? std::optional(copy) : std::nullopt;
 }
 
 std::optional<Shards> ShardDealer::shards_of(CopyId id) const {
     const auto copy = known(id);
-    const auto work = copy ? works_.find(*scheduler_.work_of(*copy)) : works_.end();
+    const auto work = copy ? works_.find(*scheduler_.in_flight().work_of(*copy)) : works_.end();
     return work == works_.end() ? std::nullopt : std::optional(work->second);
 }
 
 bool ShardDealer::is_asked_also(CopyId id) const {
     const auto copy = known(id);
-    return copy && also_.contains(*scheduler_.work_of(*copy));
+    return copy && also_.contains(*scheduler_.in_flight().work_of(*copy));
 }
 
 std::optional<std::string> ShardDealer::host_of(CopyId id) const {
     const auto copy = known(id);
-    const auto replica = copy ? scheduler_.replica_of(*copy) : std::nullopt;
+    const auto replica = copy ? scheduler_.in_flight().replica_of(*copy) : std::nullopt;
     return replica ? std::optional(copies_[*replica].place.host) : std::nullopt;
 }
 

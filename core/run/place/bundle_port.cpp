@@ -90,7 +90,7 @@ std::chrono::nanoseconds BundlePort::patience() const {
 // DECISIONS: little-for-strangers
 std::size_t BundlePort::full() const {
     constexpr std::size_t for_strangers = 64;
-    const double each = replicas_.scheduler().work_of_each();
+    const double each = replicas_.scheduler().order().times().said();
     const std::size_t most = each > 0 || kept_back_ ? rules_.questions : std::min(rules_.questions, for_strangers);
     return full_bundle(most, each);
 }

@@ -67,7 +67,7 @@ void Place::share_out() {
         while (const std::size_t waiting = remote.port->waiting()) {
             const auto size = std::min(full_bundle(tuning_.bundle, remote.own_seconds),
                                        std::max(waiting / (2 * (relieved.helpers + 1)), least_bundle));
-            const auto soonest = remote.port->replicas().scheduler().soonest(std::min(size, waiting));
+            const auto soonest = remote.port->replicas().scheduler().order().soonest(std::min(size, waiting));
             if (!soonest || *soonest > enough) break;
             if (remote.own_seconds > 0 && *soonest > worth_waiting * remote.own_seconds * double(waiting)) break;
             remote.port->share(size);

@@ -89,15 +89,17 @@ public:
     void forget(const Bundle<Question>& bundle);
 
     /// Replicas.
-    std::size_t size() const { return scheduler_.replicas(); }
+    std::size_t size() const { return scheduler_.replicas().present(); }
     /// May a bundle be sent that would leave at once?
     bool has_credit() const { return scheduler_.has_room(); }
     /// Is anything waiting for credit, or to be tried again?
     bool has_waiting() const { return scheduler_.has_waiting(); }
-    std::size_t outstanding() const { return scheduler_.questions_out(); }
+    std::size_t outstanding() const { return scheduler_.in_flight().questions(); }
     /// Questions that are under way, and those that wait for credit.
-    std::size_t unanswered() const { return scheduler_.questions_out() + scheduler_.questions_waiting(); }
-    std::size_t bundles_outstanding() const { return scheduler_.copies_out(); }
+    std::size_t unanswered() const {
+        return scheduler_.in_flight().questions() + scheduler_.backlog().questions().waiting;
+    }
+    std::size_t bundles_outstanding() const { return scheduler_.in_flight().copies(); }
     const Scheduler& scheduler() const { return scheduler_; }
 
     /// Takes a bundle, and sends it when a replica is free. Always true.
@@ -110,7 +112,7 @@ public:
     Credit credit() const override;
     Load load() const override;
     /// Of all replicas together.
-    std::uint32_t places() const override { return static_cast<std::uint32_t>(scheduler_.places()); }
+    std::uint32_t places() const override { return static_cast<std::uint32_t>(scheduler_.replicas().places()); }
 
 private:
     struct Slot {

@@ -26,7 +26,7 @@ void Multiplexer<Question>::halve_what_was_lost_twice(Scheduler::Host host) {
         return;
     std::vector<Scheduler::WorkId> too_long;
     for (const auto& [work, entry] : entries_)
-        if (!entry.check && entry.bundle.questions->size() > 1 && !scheduler_.is_under_way(work) &&
+        if (!entry.check && entry.bundle.questions->size() > 1 && !scheduler_.backlog().is_under_way(work) &&
             std::ranges::count(entry.lost_at, host) > 1)
             too_long.push_back(work);
     for (const auto work : too_long) halve(work);

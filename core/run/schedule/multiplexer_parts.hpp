@@ -131,8 +131,9 @@ std::vector<std::vector<std::uint32_t>> Multiplexer<Question>::cut(const std::ve
     if (!std::is_same_v<Question, Query> || questions.size() < 2 * rules_.least_piece || size() < 2) return {};
     if (rules_.scheduling.strategy == Strategy::affinity) return by_home(questions);
     const auto most = questions.size() / rules_.least_piece;
-    const auto count = std::min(scheduler_.idle(), most);
-    if (count < 2 || scheduler_.service() * static_cast<double>(questions.size()) < rules_.worth_cutting) return {};
+    const auto count = std::min(scheduler_.order().idle(), most);
+    if (count < 2 || scheduler_.order().times().mean() * static_cast<double>(questions.size()) < rules_.worth_cutting)
+        return {};
     std::vector<std::vector<std::uint32_t>> pieces(count);
     for (std::size_t piece = 0; piece < count; ++piece) {
         const auto first = questions.size() * piece / count, end = questions.size() * (piece + 1) / count;
@@ -146,7 +147,8 @@ std::vector<std::vector<std::uint32_t>> Multiplexer<Question>::cut(const std::ve
 template <class Question>
 std::vector<std::vector<std::uint32_t>> Multiplexer<Question>::by_home(const std::vector<Question>& questions) const {
     std::map<Scheduler::Replica, std::vector<std::uint32_t>> homes;
-    for (std::uint32_t i = 0; i < questions.size(); ++i) homes[scheduler_.home(region_of(questions[i]))].push_back(i);
+    for (std::uint32_t i = 0; i < questions.size(); ++i)
+        homes[scheduler_.replicas().home(region_of(questions[i]))].push_back(i);
     std::vector<std::vector<std::uint32_t>> pieces;
     std::vector<std::uint32_t> rest;
     for (auto& [replica, piece] : homes) {
@@ -226,7 +228,7 @@ void Multiplexer<Question>::settle(const std::vector<Scheduler::Action>& actions
 
 template <class Question>
 void Multiplexer<Question>::failed(const Bundle<Question>& bundle, const Failure& failure) {
-    const auto work = scheduler_.work_of(bundle.number);
+    const auto work = scheduler_.in_flight().work_of(bundle.number);
     if (const auto entry = work ? entries_.find(*work) : entries_.end(); entry != entries_.end())
         entry->second.failure = failure;
     std::vector<Scheduler::Action> actions;
@@ -240,7 +242,7 @@ void Multiplexer<Question>::failed(const Bundle<Question>& bundle, const Failure
 
 template <class Question>
 bool Multiplexer<Question>::fits(const Bundle<Question>& bundle, const std::vector<Rgb>& answers) const {
-    const auto work = scheduler_.work_of(bundle.number);
+    const auto work = scheduler_.in_flight().work_of(bundle.number);
     const auto entry = work ? entries_.find(*work) : entries_.end();
     return entry == entries_.end() ||
            answers.size() == answers_to(*entry->second.bundle.questions, entry->second.bundle.width);
@@ -248,7 +250,7 @@ bool Multiplexer<Question>::fits(const Bundle<Question>& bundle, const std::vect
 
 template <class Question>
 void Multiplexer<Question>::replied(const Bundle<Question>& bundle, std::vector<Rgb> answers) {
-    const auto replica = scheduler_.replica_of(bundle.number);
+    const auto replica = scheduler_.in_flight().replica_of(bundle.number);
     const Load load = replica && slots_[*replica].channel ? slots_[*replica].channel->load() : Load{};
     if (!fits(bundle, answers)) {
         const auto host = replica ? slots_[*replica].host : std::string();
@@ -357,7 +359,7 @@ Credit Multiplexer<Question>::credit() const {
 template <class Question>
 Load Multiplexer<Question>::load() const {
     return {static_cast<std::uint32_t>(scheduler_.questions_ahead()),
-            static_cast<std::uint32_t>(std::clamp(scheduler_.service() * 1e9, 0.0, 4e9))};
+            static_cast<std::uint32_t>(std::clamp(scheduler_.order().times().mean() * 1e9, 0.0, 4e9))};
 }
 
 template <class Question>

@@ -81,7 +81,7 @@ template <class Question>
 void Multiplexer<Question>::let_dropped_go() {
     std::vector<Entry> dropped;
     std::erase_if(entries_, [&](auto& entry) {
-        if (scheduler_.knows(entry.first)) return false;
+        if (scheduler_.backlog().knows(entry.first)) return false;
         if (entry.second.check) dropped.push_back(std::move(entry.second));
         return true;
     });

@@ -1,332 +1,279 @@
 #include "core/run/schedule/scheduler.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <map>
 #include <utility>
 
-namespace lightnet {
+#include "core/run/schedule/choice.hpp"
+#include "core/run/schedule/rescue.hpp"
+#include "core/run/schedule/tail_doubling.hpp"
 
-// DECISIONS: one-state-machine
-void Scheduler::on(const Event& event, Time now, std::vector<Action>& actions) {
-    actions_ = &actions;
-    std::visit([&](const auto& what) { happens(what, now); }, event);
-}
+namespace lightnet {
+namespace {
+
+using Item = Backlog::Item;
+using Terms = ScheduleTerms;
+
+/// What becomes of the state by one event.
+class Reaction {
+public:
+    Reaction(ScheduleState& state, Terms::Time now) : state_(state), now_(now) {}
+
+    void operator()(const Terms::Added& event);
+    void operator()(const Terms::Foreseen& event) { state_.backlog.foresee(event.questions); }
+    void operator()(const Terms::Joined& event);
+    void operator()(const Terms::Resized& event);
+    void operator()(const Terms::Draining& event);
+    void operator()(const Terms::Gone& event);
+    void operator()(const Terms::Replied& event);
+    void operator()(const Terms::Failed& event);
+    void operator()(const Terms::Alive& event) { state_.book[event.replica].last_sign = now_; }
+    void operator()(const Terms::Refused& event);
+    void operator()(const Terms::Dropped& event);
+    void operator()(const Terms::Forgotten& event);
+    void operator()(const Terms::Tick& event);
+
+private:
+    std::size_t under_way(Terms::Host host) const;
+    void go(Terms::Replica replica, bool died, bool alone);
+    void blame(Item& item, const Suspects::Loss& loss);
+    Item* take_copy(Terms::CopyId copy, const InFlight::Closed& closed);
+    void expect_again();
+    void measure(Terms::Replica replica, const InFlight::Copy& copy, const Terms::Replied& reply);
+    void hand_out();
+    void act(const Terms::Action& action) { state_.actions->push_back(action); }
+
+    ScheduleState& state_;
+    Terms::Time now_;
+};
 
 // ---- work comes and goes ----
 
-void Scheduler::happens(const Added& event, Time) {
-    assert(!items_.contains(event.work) && "work goes by numbers of its own");
-    items_.emplace(event.work, Item{.work = event, .waiting = true});
-    (event.not_at.empty() ? waiting_ : retries_).push_back(event.work);
-    questions_waiting_ += event.questions;
-    questions_added_ += event.questions;
-    questions_wanted_ += event.questions;
-    note_size(event.questions);
+void Reaction::operator()(const Terms::Added& event) {
+    state_.backlog.add(event);
+    if (state_.order.note_size(event.questions)) state_.refresh_all();
 }
 
-void Scheduler::happens(const Dropped&, Time) {
-    for (const auto& queue :
-         {std::exchange(waiting_, {}), std::exchange(overdue_, {}), suspects_.drop(), std::exchange(retries_, {})})
+void Reaction::operator()(const Terms::Dropped&) {
+    auto& queues = state_.backlog.queues;
+    for (const auto& queue : {std::exchange(queues.first, {}), std::exchange(queues.overdue, {}),
+                              state_.suspects.drop(), std::exchange(queues.retries, {})})
         for (const auto work : queue)
-            if (waiting_item(work)) finish(work);
-    foreseen_ = 0;
-    rules_.double_tail = false;  // what is left is waited for, and not worth doing twice
+            if (state_.backlog.find_waiting(work)) state_.finish(work);
+    state_.backlog.foresee(0);
+    state_.rules.double_tail = false;  // what is left is waited for, and not worth doing twice
 }
 
-void Scheduler::happens(const Forgotten& event, Time) {
-    if (items_.contains(event.work)) finish(event.work);
-}
-
-bool Scheduler::is_at(WorkId work, Replica replica) const {
-    const auto found = items_.find(work);
-    return found != items_.end() && std::ranges::any_of(found->second.copies, [&](CopyId copy) {
-               return in_flight_.replica_of(copy) == replica;
-           });
-}
-
-bool Scheduler::is_under_way(WorkId work) const {
-    const auto found = items_.find(work);
-    return found != items_.end() && !found->second.copies.empty();
-}
-
-Scheduler::Item* Scheduler::waiting_item(WorkId work) {
-    const auto found = items_.find(work);
-    return found == items_.end() || !found->second.waiting ? nullptr : &found->second;
-}
-
-void Scheduler::wait_again(Item& item) {
-    item.waiting = true;
-    questions_waiting_ += item.work.questions;
-    if (suspects_.is_suspect(item.work.work))
-        suspects_.wait(item.work.work);
-    else if (item.failures > 0 || !item.work.not_at.empty())
-        retries_.push_back(item.work.work);
-    else if (!item.written_off.empty())
-        overdue_.push_back(item.work.work);
-    else
-        waiting_.push_front(item.work.work);
-}
-
-// Forgets about work. What is still under way of it keeps its credit until it is answered or overdue.
-void Scheduler::finish(WorkId work) {
-    const Item item = std::move(items_.extract(work).mapped());  // it may stand in a queue; it is skipped there
-    if (item.waiting) questions_waiting_ -= item.work.questions;
-    questions_wanted_ -= item.work.questions;
-    suspects_.forget(work);
-    for (const auto copy : item.copies) refresh_due(*in_flight_.replica_of(copy));
+void Reaction::operator()(const Terms::Forgotten& event) {
+    if (state_.backlog.knows(event.work)) state_.finish(event.work);
 }
 
 // ---- replicas come and go ----
 
-void Scheduler::happens(const Joined& event, Time) {
-    if (event.replica >= replicas_.size()) replicas_.resize(event.replica + 1);
-    auto& replica = replicas_[event.replica];
-    assert(!replica.present && "a replica joins once");
-    replica = {};
-    replica.present = true;
-    replica.host = event.host;
-    replica.name = event.name;
-    replica.process = event.process;
-    replica.credit = event.credit;
-    replica.places = event.places;
-    replica.reserve = event.reserve;
-    replica.within_process = event.within_process;
-    if (event.reserve) reserve_ = event.replica;
-    replica.patience = rules_.patience;
-    times_.forget(event.replica);
-    hosts_[event.host].insert(event.replica);
-    ++present_;
-    places_ += event.places;
-    elsewhere_ += !event.within_process;
-    for (const auto work : suspects_.came_back(event.host, event.process))
-        if (waiting_item(work)) waiting_.push_front(work);
-    at_home(event.replica);
-    refresh(event.replica);
-    if (elsewhere_ == 1 && !event.within_process)  // who may do twice what is within the process
-        for (Replica other = 0; other < replicas_.size(); ++other) refresh_due(other);
+void Reaction::operator()(const Terms::Joined& event) {
+    state_.book.join(event, state_.rules.patience);
+    state_.order.times().forget(event.replica);
+    for (const auto work : state_.suspects.came_back(event.host, event.process))
+        if (state_.backlog.find_waiting(work)) state_.backlog.queues.first.push_front(work);
+    state_.refresh(event.replica);
+    if (state_.book.elsewhere() == 1 && !event.within_process)  // who may do twice what is within the process
+        for (Terms::Replica other = 0; other < state_.book.end(); ++other) state_.refresh_due(other);
 }
 
-// Regions belong to it from now on: where they count. What the asker keeps in reserve is nobody's home.
-void Scheduler::at_home(Replica replica) {
-    const auto& state = replicas_[replica];
-    if (rules_.strategy == Strategy::affinity && !state.reserve) homes_.add(replica, state.name, state.places);
+void Reaction::operator()(const Terms::Resized& event) {
+    state_.book.resize(event);
+    state_.refresh(event.replica);
 }
 
-void Scheduler::happens(const Resized& event, Time) {
-    auto& replica = replicas_.at(event.replica);
-    if (!replica.present) return;
-    homes_.remove(event.replica, replica.name, replica.places);
-    places_ = places_ - replica.places + event.places;
-    replica.places = event.places;
-    replica.credit = event.credit;
-    if (!replica.draining) at_home(event.replica);
-    refresh(event.replica);
+void Reaction::operator()(const Terms::Draining& event) {
+    state_.book.drain(event);
+    state_.refresh(event.replica);
 }
 
-void Scheduler::happens(const Draining& event, Time) {
-    auto& replica = replicas_.at(event.replica);
-    if (!replica.present || replica.draining == event.draining) return;
-    replica.draining = event.draining;
-    if (event.draining)
-        homes_.remove(event.replica, replica.name, replica.places);
-    else
-        at_home(event.replica);
-    refresh(event.replica);
-}
-
-void Scheduler::happens(const Gone& event, Time) {
-    std::map<Host, std::size_t> had;  // when it died: its replicas go together
-    for (const auto replica : event.replicas) had[replicas_.at(replica).host] = under_way(replicas_[replica].host);
+void Reaction::operator()(const Terms::Gone& event) {
+    auto& book = state_.book;
+    std::map<Terms::Host, std::size_t> had;  // when it died: its replicas go together
+    for (const auto replica : event.replicas) had[book[replica].host] = under_way(book[replica].host);
     for (const auto replica : event.replicas)
-        if (replicas_[replica].present) go(replica, event.died, had[replicas_[replica].host] == 1);
+        if (book[replica].present) go(replica, event.died, had[book[replica].host] == 1);
 }
 
-std::size_t Scheduler::under_way(Host host) const {
+std::size_t Reaction::under_way(Terms::Host host) const {
     std::size_t copies = 0;
-    if (const auto found = hosts_.find(host); found != hosts_.end())
-        for (const auto replica : found->second) copies += in_flight_.of(replica).size();
+    const auto& hosts = state_.book.on_hosts();
+    if (const auto found = hosts.find(host); found != hosts.end())
+        for (const auto replica : found->second) copies += state_.in_flight.of(replica).size();
     return copies;
 }
 
-void Scheduler::go(Replica replica, bool died, bool alone) {
-    auto& state = replicas_[replica];
-    const InFlight::Account had = in_flight_.close_all(replica);
+void Reaction::go(Terms::Replica replica, bool died, bool alone) {
+    const auto& state = state_.book[replica];
+    const InFlight::Account had = state_.in_flight.close_all(replica);
     for (const auto& [copy, work] : had.written_off)
-        if (const auto item = items_.find(work); item != items_.end()) std::erase(item->second.written_off, copy);
+        if (auto* const item = state_.backlog.find(work)) std::erase(item->written_off, copy);
     const Suspects::Loss loss{state.host, state.process, alone};
-    if (died) suspects_.lost(loss.host, loss.process);
-    homes_.remove(replica, state.name, state.places);
-    state.present = false;
-    if (state.reserve) reserve_.reset();
-    --present_;
-    places_ -= state.places;
-    elsewhere_ -= !state.within_process;
-    auto& of_host = hosts_.at(loss.host);
-    of_host.erase(replica);
-    if (of_host.empty()) {
-        hosts_.erase(loss.host);
-        suspects_.release(loss.host);
-    }
-    refresh(replica);
+    if (died) state_.suspects.lost(loss.host, loss.process);
+    if (state_.book.leave(replica)) state_.suspects.release(loss.host);
+    state_.refresh(replica);
     for (auto copy = had.copies.rbegin(); copy != had.copies.rend(); ++copy) {
-        const auto found = items_.find(copy->work);
-        if (found == items_.end()) continue;
-        auto& item = found->second;
-        ++counts_.asked_again;
-        std::erase(item.copies, copy->id);
+        auto* const item = state_.backlog.find(copy->work);
+        if (!item) continue;
+        ++state_.counts.asked_again;
+        std::erase(item->copies, copy->id);
         if (died)
-            blame(item, loss);
+            blame(*item, loss);
         else
-            ask_again(item);
+            state_.ask_again(*item);
     }
 }
 
-void Scheduler::ask_again(Item& item) {
-    if (item.copies.empty() && !item.waiting) wait_again(item);
-}
-
-void Scheduler::blame(Item& item, const Suspects::Loss& loss) {
+void Reaction::blame(Item& item, const Suspects::Loss& loss) {
     const auto work = item.work.work;
-    if (!suspects_.blame(work, loss)) return ask_again(item);
-    actions_->push_back(SetAside{work, suspects_.died_alone(work)});
-    finish(work);
+    if (!state_.suspects.blame(work, loss)) return state_.ask_again(item);
+    act(Terms::SetAside{work, state_.suspects.died_alone(work)});
+    state_.finish(work);
 }
 
 // ---- copies come back ----
 
 // What the copy was of, which does not count it any more; null: that is done.
-Scheduler::Item* Scheduler::item_of(const InFlight::Closed& closed) {
-    const auto found = items_.find(closed.work);
-    return found == items_.end() ? nullptr : &found->second;
+Item* Reaction::take_copy(Terms::CopyId copy, const InFlight::Closed& closed) {
+    auto* const item = state_.backlog.find(closed.work);
+    if (item) std::erase(closed.copy ? item->copies : item->written_off, copy);
+    return item;
 }
 
-void Scheduler::happens(const Replied& event, Time now) {
-    const auto closed = in_flight_.close(event.copy);
-    if (!closed) return actions_->push_back(Drop{event.copy});
-    auto& replica = replicas_[closed->replica];
-    if (closed->copy) measure(closed->replica, *closed->copy, event, now);
-    const bool is_first = !times_.any();
-    const auto& account = in_flight_.of(closed->replica);
+void Reaction::operator()(const Terms::Replied& event) {
+    const auto closed = state_.in_flight.close(event.copy);
+    if (!closed) return act(Terms::Drop{event.copy});
+    auto& replica = state_.book[closed->replica];
+    if (closed->copy) measure(closed->replica, *closed->copy, event);
+    const bool is_first = !state_.order.times().any();
+    const auto& account = state_.in_flight.of(closed->replica);
     replica.others = event.fill > account.questions ? event.fill - account.questions : 0;
-    replica.last_reply = replica.last_sign = now;
-    replica.silent = false;
-    replica.patience = rules_.patience;
-    Item* item = item_of(*closed);
-    if (item) std::erase(closed->copy ? item->copies : item->written_off, event.copy);
-    refresh(closed->replica);
-    if (is_first && times_.any()) expect_again(now);
-    if (!item) return actions_->push_back(Drop{event.copy});
-    actions_->push_back(Accept{event.copy, closed->work});
-    finish(closed->work);
+    replica.replied(now_);
+    replica.patience = state_.rules.patience;
+    const Item* const item = take_copy(event.copy, *closed);
+    state_.refresh(closed->replica);
+    if (is_first && state_.order.times().any()) expect_again();
+    if (!item) return act(Terms::Drop{event.copy});
+    act(Terms::Accept{event.copy, closed->work});
+    state_.finish(closed->work);
 }
 
 // The first answer tells about how long what was sent before it will take.
-void Scheduler::expect_again(Time now) {
-    for (Replica replica = 0; replica < replicas_.size(); ++replica) {
-        if (in_flight_.of(replica).copies.empty()) continue;
-        in_flight_.expect(replica, [&](InFlight::Copy& copy) {
-            copy.expected = now + completion_time(replica, 0);
-            copy.late = copy.sent + late_after(copy.expected - copy.sent);
+void Reaction::expect_again() {
+    for (Terms::Replica replica = 0; replica < state_.book.end(); ++replica) {
+        if (state_.in_flight.of(replica).copies.empty()) continue;
+        state_.in_flight.expect(replica, [&](InFlight::Copy& copy) {
+            copy.expected = now_ + state_.order.completion_time(replica, 0);
+            copy.late = copy.sent + state_.late_after(copy.expected - copy.sent);
         });
-        refresh_due(replica);
+        state_.refresh_due(replica);
     }
 }
 
 // A replica that was never idle has spent on this copy what has passed since its last reply: so many places at once.
-void Scheduler::measure(Replica replica, const InFlight::Copy& copy, const Replied& reply, Time now) {
-    const double seconds = std::max(now - std::max(copy.sent, replicas_[replica].last_reply), 0.0);
-    const auto at_work = std::min<std::size_t>(replicas_[replica].places, in_flight_.of(replica).copies.size() + 1);
-    times_.measure(replica, static_cast<double>(at_work) * seconds, reply.answered ? reply.answered : copy.questions,
-                   reply.service);
+void Reaction::measure(Terms::Replica replica, const InFlight::Copy& copy, const Terms::Replied& reply) {
+    const auto& state = state_.book[replica];
+    const double seconds = std::max(now_ - std::max(copy.sent, state.last_reply), 0.0);
+    const auto at_work = std::min<std::size_t>(state.places, state_.in_flight.of(replica).copies.size() + 1);
+    state_.order.times().measure(replica, static_cast<double>(at_work) * seconds,
+                                 reply.answered ? reply.answered : copy.questions, reply.service);
 }
 
-void Scheduler::happens(const Failed& event, Time now) {
-    const auto closed = in_flight_.close(event.copy);
-    if (!closed) return actions_->push_back(Drop{event.copy});
-    Item* item = item_of(*closed);
-    if (item) std::erase(closed->copy ? item->copies : item->written_off, event.copy);
-    auto& replica = replicas_[closed->replica];
-    replica.last_reply = replica.last_sign = now;
-    replica.silent = false;
-    refresh(closed->replica);
-    if (!item) return actions_->push_back(Drop{event.copy});
+void Reaction::operator()(const Terms::Failed& event) {
+    const auto closed = state_.in_flight.close(event.copy);
+    if (!closed) return act(Terms::Drop{event.copy});
+    Item* const item = take_copy(event.copy, *closed);
+    auto& replica = state_.book[closed->replica];
+    replica.replied(now_);
+    state_.refresh(closed->replica);
+    if (!item) return act(Terms::Drop{event.copy});
     item->failed_at.insert(replica.host);
     ++item->failures;
-    fail(*item);
+    Rescue(state_).fail(*item);
 }
 
-void Scheduler::happens(const Alive& event, Time now) { replicas_.at(event.replica).last_sign = now; }
-
-void Scheduler::happens(const Refused& event, Time) {
-    const auto closed = in_flight_.close(event.copy);
+void Reaction::operator()(const Terms::Refused& event) {
+    const auto closed = state_.in_flight.close(event.copy);
     if (!closed) return;
-    auto& replica = replicas_[closed->replica];
-    if (!replica.refused) refused_.push_back(closed->replica);
+    auto& replica = state_.book[closed->replica];
+    if (!replica.refused) state_.refused.push_back(closed->replica);
     replica.refused = true;
-    refresh(closed->replica);
-    Item* item = item_of(*closed);
-    if (!item) return;
-    std::erase(item->copies, event.copy);
-    ask_again(*item);
+    state_.refresh(closed->replica);
+    if (Item* const item = take_copy(event.copy, *closed)) state_.ask_again(*item);
 }
 
 // ---- time to decide ----
 
-void Scheduler::happens(const Tick& event, Time now) {
+void Reaction::operator()(const Terms::Tick& event) {
     if (!event.again)
-        for (const auto replica : std::exchange(refused_, {})) {
-            replicas_[replica].refused = false;
-            refresh(replica);
+        for (const auto replica : std::exchange(state_.refused, {})) {
+            state_.book[replica].refused = false;
+            state_.refresh(replica);
         }
-    write_off_overdue(now);
-    test_suspects(now);
-    retry(now);
-    ask_idle(now);
-    hand_out(now);
-    double_tail(now);
+    Rescue rescue(state_);
+    rescue.write_off_overdue(now_);
+    rescue.test_suspects(now_);
+    rescue.retry(now_);
+    rescue.ask_idle(now_);
+    hand_out();
+    TailDoubling(state_).double_tail(now_);
 }
 
-void Scheduler::send(Item& item, Replica replica, Time now) {
-    if (item.waiting) questions_waiting_ -= item.work.questions;
-    item.waiting = false;
-    auto& state = replicas_[replica];
-    const bool known = times_.any();
-    const double seconds = completion_time(replica, item.work.questions);
-    const double expected = known ? seconds : rules_.guess;
-    const double most = known ? rules_.late_factor * times_.spread() * seconds : rules_.patience_at_first;
-    const double patience = state.within_process ? TournamentTree::none : std::max(state.patience, most);
-    const CopyId id = in_flight_.open(replica, {.work = item.work.work,
-                                                .questions = item.work.questions,
-                                                .bytes = item.work.bytes,
-                                                .sent = now,
-                                                .expected = known ? now + expected : TournamentTree::none,
-                                                .late = now + late_after(expected),
-                                                .overdue = now + patience,
-                                                .patience = patience});
-    if (++state.in_turn >= state.places) state.turn = ++turn_, state.in_turn = 0;
-    item.copies.push_back(id);
-    refresh(replica);
-    for (const auto other : item.copies)
-        if (other != id) refresh_due(*in_flight_.replica_of(other));
-    actions_->push_back(Send{id, item.work.work, replica});
-}
-
-void Scheduler::hand_out(Time now) {
-    while (!waiting_.empty()) {
-        const auto work = waiting_.front();
-        auto* const item = waiting_item(work);
+void Reaction::hand_out() {
+    auto& waiting = state_.backlog.queues.first;
+    while (!waiting.empty()) {
+        const auto work = waiting.front();
+        auto* const item = state_.backlog.find_waiting(work);
         if (!item) {
-            waiting_.pop_front();
-        } else if (suspects_.is_suspect(work)) {
-            suspects_.wait(work);
-            waiting_.pop_front();
+            waiting.pop_front();
+        } else if (state_.suspects.is_suspect(work)) {
+            state_.suspects.wait(work);
+            waiting.pop_front();
         } else {
-            const auto replica = choose(*item);
+            const auto replica = choose(state_, *item);
             if (!replica) return;
-            waiting_.pop_front();
-            send(*item, *replica, now);
+            waiting.pop_front();
+            state_.send(*item, *replica, now_);
         }
     }
+}
+
+}  // namespace
+
+// DECISIONS: one-state-machine
+void Scheduler::on(const Event& event, Time now, std::vector<Action>& actions) {
+    state_->actions = &actions;
+    std::visit(Reaction(*state_, now), event);
+}
+
+bool Scheduler::has_waiting() const {
+    const auto& queues = backlog().queues;
+    return !queues.first.empty() || !queues.overdue.empty() || !queues.retries.empty() || !state_->suspects.empty() ||
+           refused();
+}
+
+Scheduler::Time Scheduler::next_tick() const {
+    return std::min(state_->stragglers.next_overdue(), TailDoubling(*state_).next_tick());
+}
+
+bool Scheduler::half_idle() const {
+    return 2 * (order().idle() + replicas().reserve().has_value()) >= replicas().present();
+}
+
+std::size_t Scheduler::questions_ahead() const {
+    std::size_t questions = in_flight().questions() + backlog().questions().waiting;
+    for (Replica replica = 0; replica < replicas().end(); ++replica)
+        questions += replicas()[replica].present ? replicas()[replica].others : 0;
+    return questions;
+}
+
+bool Scheduler::is_at(WorkId work, Replica replica) const {
+    const auto* const item = backlog().find(work);
+    return item &&
+           std::ranges::any_of(item->copies, [&](CopyId copy) { return in_flight().replica_of(copy) == replica; });
 }
 
 }  // namespace lightnet
