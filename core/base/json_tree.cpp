@@ -20,6 +20,8 @@ template <class... Cases>
 struct ByKind : Cases... {
     using Cases::operator()...;
 };
+template <class... Cases>
+ByKind(Cases...) -> ByKind<Cases...>;  // which clang 14 doesn't find by itself
 
 }  // namespace
 

@@ -161,6 +161,7 @@ protected:
             run.wait_for("never said", milliseconds(20));
             settle(Clock::now());
         }
+        if (disk_) disk_->clear();  // its folder may have been away when it was to be
     }
 
     static Phase phase(Chance& chance) {
