@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/run/place/full_bundle.hpp"
-#include "core/run/place/place.hpp"
+#include "core/run/place/place_ports.hpp"
 
 namespace lightnet {
 namespace {
@@ -18,54 +18,54 @@ constexpr double worth_waiting = 2;       // times as long as this place would n
 constexpr double own_piece = 5e-4;        // seconds that this place takes for them at once
 constexpr std::size_t most_own = 4;       // such pieces at the same time, of nodes that ask on
 
-}  // namespace
-
-bool Place::called_here(std::size_t node) const { return tuning_.call_own_nodes && holds(node); }
-
 // Other places that hold the node, but not all that this one holds: such have as much to do as this one.
-std::vector<std::uint32_t> Place::helpers(std::size_t node) const {
-    const auto& holders = plan_.places_of[node];
+std::vector<std::uint32_t> helpers(const Plan& plan, const PlaceAt& me, std::size_t node) {
     std::vector<std::uint32_t> helpers;
-    for (const auto place : holders) {
+    for (const auto place : plan.places_of[node]) {
         const auto lacks_one = [&](const std::vector<std::uint32_t>& held_by) {
-            return std::find(held_by.begin(), held_by.end(), place) == held_by.end() &&
-                   std::any_of(held_by.begin(), held_by.end(), [&](auto i) { return plan_.places[i] == me_; });
+            return std::ranges::find(held_by, place) == held_by.end() &&
+                   std::ranges::any_of(held_by, [&](auto i) { return plan.places[i] == me; });
         };
-        if (plan_.places[place] != me_ && std::any_of(plan_.places_of.begin(), plan_.places_of.end(), lacks_one))
-            helpers.push_back(place);
+        if (plan.places[place] != me && std::ranges::any_of(plan.places_of, lacks_one)) helpers.push_back(place);
     }
     return helpers;
 }
 
+}  // namespace
+
+bool PlacePorts::called_here(std::size_t node) const { return at_.tuning.call_own_nodes && holds(plan_, at_.me, node); }
+
+std::size_t PlacePorts::helpers_of(std::size_t node) const { return helpers(plan_, at_.me, node).size(); }
+
 // Who is asked by bundles: where this place holds the node, its helpers, and it itself in reserve.
-Plan Place::plan_for(std::size_t node) const {
+Plan PlacePorts::plan_for(std::size_t node) const {
     if (!called_here(node)) return plan_;
     Plan plan = plan_;
-    const auto others = helpers(node);
+    const auto others = helpers(plan_, at_.me, node);
     std::erase_if(plan.places_of[node], [&](auto place) {
-        return plan.places[place] != me_ && std::find(others.begin(), others.end(), place) == others.end();
+        return plan.places[place] != at_.me && std::find(others.begin(), others.end(), place) == others.end();
     });
     return plan;
 }
 
-void Place::use(std::size_t node, std::size_t width, RoutingPort& port) {
-    const auto count = called_here(node) ? helpers(node).size() : 0;
-    port.use(called_here(node), count > 0);
+void PlacePorts::lead(Key key, RoutingPort& port) {
+    const auto count = called_here(key.first) ? helpers_of(key.first) : 0;
+    port.use(called_here(key.first), count > 0);
     if (count == 0) return;
-    relieved_.push_back({node, width, &port, count});
-    if (const auto found = remotes_.find({node, width}); found != remotes_.end()) found->second.port->keep_back(true);
+    relieved_.push_back({key, &port, count});
+    if (const auto found = remotes_.find(key); found != remotes_.end()) found->second.port->keep_back(true);
 }
 
 // Helpers get bundles as long as they answer one soon. As a rule this place has something else to do meanwhile: so it
 // may take them a little longer than this place alone would need for all that waits.
 // DECISIONS: relief-by-the-idle
-void Place::share_out() {
+void PlacePorts::share_out() {
     for (const auto& relieved : relieved_) {
-        const auto found = remotes_.find({relieved.node, relieved.width});
+        const auto found = remotes_.find(relieved.key);
         if (found == remotes_.end()) continue;
         auto& [key, remote] = *found;
         while (const std::size_t waiting = remote.port->waiting()) {
-            const auto size = std::min(full_bundle(tuning_.bundle, remote.own_seconds),
+            const auto size = std::min(full_bundle(at_.tuning.bundle, remote.own_seconds),
                                        std::max(waiting / (2 * (relieved.helpers + 1)), least_bundle));
             const auto soonest = remote.port->replicas().scheduler().order().soonest(std::min(size, waiting));
             if (!soonest || *soonest > enough) break;
@@ -75,33 +75,32 @@ void Place::share_out() {
     }
 }
 
-// Begins to answer some of what waits for helpers. False: nothing does.
-bool Place::start_own() {
+bool PlacePorts::start_own() {
     for (const auto& relieved : relieved_) {
-        const auto found = remotes_.find({relieved.node, relieved.width});
+        const auto found = remotes_.find(relieved.key);
         if (found == remotes_.end() || found->second.port->waiting() == 0) continue;
         auto& remote = found->second;
         if (remote.own_fibers >= most_own) continue;
         const double seconds = remote.own_seconds;
         const auto size = seconds > 0
                               ? std::clamp<std::size_t>(static_cast<std::size_t>(std::min(own_piece / seconds, 1e9)), 1,
-                                                        tuning_.bundle)
+                                                        at_.tuning.bundle)
                               : least_bundle;
         auto bundle = remote.port->take_back(size);
-        fibers_.start(network_.graph.nodes[relieved.node].name.c_str(),
-                      [this, relieved, bundle = std::move(bundle)] { answer_own(relieved, bundle); });
+        at_.fibers.start(at_.network.graph.nodes[relieved.key.first].name.c_str(),
+                         [this, relieved, bundle = std::move(bundle)] { answer_own(relieved, bundle); });
         return true;
     }
     return false;
 }
 
-void Place::answer_own(const Relieved& relieved, const Bundle<Query>& bundle) {
-    auto& remote = remotes_.at({relieved.node, relieved.width});
+void PlacePorts::answer_own(const Relieved& relieved, const Bundle<Query>& bundle) {
+    auto& remote = remotes_.at(relieved.key);
     const auto leave = [](Remote* left) { --left->own_fibers; };
     ++remote.own_fibers;
     const std::unique_ptr<Remote, decltype(leave)> counted(&remote, leave);  // also when the run ends meanwhile
     const auto& questions = *bundle.questions;
-    std::vector<Rgb> answers(questions.size() * relieved.width);
+    std::vector<Rgb> answers(questions.size() * relieved.key.second);
     try {
         relieved.port->call().begin(questions, answers);
         remote.port->answered_here(bundle, answers);
@@ -109,7 +108,7 @@ void Place::answer_own(const Relieved& relieved, const Bundle<Query>& bundle) {
         remote.port->failed(bundle, {error.what(), error.host()});
     }
     const double seconds =
-        std::chrono::duration<double>(fibers_.running_time(fibers_.current())).count() / double(questions.size());
+        std::chrono::duration<double>(at_.fibers.running_time(at_.fibers.current())).count() / double(questions.size());
     remote.own_seconds = remote.own_seconds > 0 ? 0.8 * remote.own_seconds + 0.2 * seconds : seconds;
 }
 
