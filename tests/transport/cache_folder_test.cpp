@@ -144,6 +144,39 @@ TEST(BlobCache, LeavesFilesOfOthersAlone) {
     EXPECT_EQ(rights_of(folder), 0750u);
 }
 
+void empty(const fs::path& folder) {
+    for (const auto& file : fs::directory_iterator(folder)) fs::remove_all(file.path());
+}
+
+TEST(CacheFolder, IsACacheStillWhenSomebodyHasEmptiedIt) {
+    const test::Folder home;
+    const auto folder = home / "cache";
+    const std::string text = "a mesh";
+    const auto use_of = std::map<std::string, std::function<void(const BlobCache&)>>{
+        {"claimed", [](const BlobCache& cache) { (void)cache.claim(); }},
+        {"filled", [&](const BlobCache& cache) {
+             cache.store(content_hash(std::string_view(text)), std::as_bytes(std::span(text)));
+         }}};
+    for (const auto& [what, use] : use_of) {
+        const BlobCache cache(folder);
+        empty(folder);
+        use(cache);
+        std::ofstream(folder / "claim-17-4711");  // its process was killed
+        EXPECT_EQ(refusal_of(folder), "") << what;
+        empty(folder);
+    }
+}
+
+TEST(CacheFolder, IsNoneThatAnotherHasMadeInItsPlace) {
+    const test::Folder home;
+    const auto folder = home / "cache";
+    const BlobCache cache(folder);
+    fs::rename(folder, home / "away");
+    home.write((folder / "thesis.tex").string(), "");
+    (void)cache.claim();
+    EXPECT_THAT(refusal_of(folder), HasSubstr("is no cache of lightnet's"));
+}
+
 TEST(BlobCache, RemovesPartsThatWereLeftBehindLongAgo) {
     const test::Folder home;
     const auto folder = home / "cache";

@@ -27,7 +27,7 @@ HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& ca
       registry_(registry),
       last_scene_(last_scene),
       assignment_(std::move(assignment)),
-      claim_(cache.folder()) {
+      claim_(cache.claim()) {
     claim_files();
     expect(assignment_.plan);
     // DECISIONS: last-scene-stays

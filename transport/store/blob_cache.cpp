@@ -13,8 +13,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/plain_file.hpp"
-#include "transport/store/cache_claim.hpp"
-#include "transport/store/cache_folder.hpp"
 #include "transport/store/recipes.hpp"
 
 namespace lightnet {
@@ -48,9 +46,7 @@ bool remove(const CacheFile& file, const fs::path& recipes) {
 }  // namespace
 
 BlobCache::BlobCache(std::string folder, std::uint64_t most_bytes)
-    : folder_(std::move(folder)), most_bytes_(most_bytes) {
-    open_cache_folder(folder_);
-}
+    : folder_(std::move(folder)), mark_(folder_), most_bytes_(most_bytes) {}
 
 std::string BlobCache::path_of(const Hash& hash) const { return folder_ + "/" + to_hex(hash); }
 
@@ -69,7 +65,15 @@ Bytes BlobCache::read(const Hash& hash) const {
     return bytes;
 }
 
-BlobCache::Incoming BlobCache::receive(const Hash& hash) const { return {path_of(hash), hash}; }
+BlobCache::Incoming BlobCache::receive(const Hash& hash) const {
+    mark_.renew();
+    return {path_of(hash), hash};
+}
+
+CacheClaim BlobCache::claim() const {
+    mark_.renew();
+    return CacheClaim(folder_);
+}
 
 BlobCache::Incoming::Incoming(std::string path, const Hash& hash)
     : path_(std::move(path)),

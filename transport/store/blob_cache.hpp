@@ -12,6 +12,8 @@
 #include "core/readers/files/files.hpp"
 #include "core/run/assembly/job.hpp"
 #include "core/run/message/tuning.hpp"
+#include "transport/store/cache_claim.hpp"
+#include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
 
@@ -59,11 +61,13 @@ public:
     /// Trims until there is room for so many bytes more.
     void make_room(std::uint64_t bytes) const;
     std::uint64_t most_bytes() const { return most_bytes_; }
-    const std::string& folder() const { return folder_; }
+    /// For a run that is going to need blobs.
+    CacheClaim claim() const;
 
 private:
     std::string path_of(const Hash& hash) const;
     std::string folder_;
+    CacheMark mark_;
     std::uint64_t most_bytes_;
 };
 

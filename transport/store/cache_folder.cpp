@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <exception>
 #include <optional>
 #include <system_error>
 
@@ -92,6 +93,19 @@ void open_cache_folder(const std::string& folder) {
                                 "', and files of a cache are removed when they are too many; choose a new folder, or "
                                 "an empty one, with --cache");
     write_file(path / mark_name, mark);
+}
+
+CacheMark::CacheMark(const std::string& folder) : folder_(folder) {
+    open_cache_folder(folder);
+    struct stat about {};
+    if (::stat(folder.c_str(), &about) == 0) device_ = about.st_dev, number_ = about.st_ino;
+}
+
+void CacheMark::renew() const noexcept try {
+    struct stat now {};
+    if (is_marked(folder_) || ::stat(folder_.c_str(), &now) != 0) return;
+    if (now.st_dev == device_ && now.st_ino == number_) write_file(fs::path(folder_) / mark_name, mark);
+} catch (const std::exception&) {  // whoever puts something there will say what is wrong
 }
 
 std::string default_cache_folder() {
