@@ -28,6 +28,7 @@ class Trivial final : public LightOp {
 public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         for (std::size_t i = 0; i < questions.size(); ++i) answers[i] = answer_to(questions[i]);
+        work_on(questions.size());
     }
 };
 
@@ -129,6 +130,18 @@ Measured full_way(Carrier& carrier, const Plan& plan) {
         }
     });
 }
+
+}  // namespace
+
+double seconds_of_bundle(Carrier& carrier, const Plan& plan) {
+    return full_way(carrier, plan).seconds / static_cast<double>(asks);
+}
+
+double seconds_of_plain_bundle(PlainPair& plain) {
+    return plain.seconds_of(asks, in_flight) / static_cast<double>(asks);
+}
+
+namespace {
 
 // ---- side by side ---------------------------------------------------------------------------------------------------
 

@@ -25,6 +25,10 @@ Job asking_job(const Picture& picture, std::size_t together = asked_together);
 /// The first place asks the second.
 Plan one_asks_the_other(const PlaceAt& first, const PlaceAt& second);
 
+/// On the wall clock, there and back, of many that are under way at the same time.
+double seconds_of_bundle(Carrier& carrier, const Plan& plan);
+double seconds_of_plain_bundle(PlainPair& plain);
+
 /// A figure, and the plain way that it is measured beside.
 struct Beside {
     std::string name;

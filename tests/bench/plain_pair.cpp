@@ -32,6 +32,19 @@ std::vector<Query> some_questions(std::size_t count) {
 
 Rgb answer_to(const Query& question) { return {question.u, question.v, question.outgoing.x}; }
 
+std::atomic<double>& work_of_question() {
+    static std::atomic<double> seconds{0};
+    return seconds;
+}
+
+void work_on(std::size_t questions) {
+    const double seconds = work_of_question().load(std::memory_order_relaxed) * static_cast<double>(questions);
+    if (seconds <= 0) return;
+    const double end = thread_seconds() + seconds;
+    while (thread_seconds() < end) {
+    }
+}
+
 void expect_answers(std::span<const Query> questions, std::span<const Rgb> answers) {
     for (std::size_t i = 0; i < questions.size(); ++i)
         if (answers[i] != answer_to(questions[i])) throw std::runtime_error("a wrong answer came back");
@@ -172,12 +185,13 @@ void exchange_keys(zmq::socket_t& router, zmq::socket_t& dealer) {
 }
 
 // Until an empty message comes.
-void answer_plainly(zmq::socket_t& router, Carried& load) {
+void answer_plainly(zmq::socket_t& router, Carried& load, std::size_t questions) {
     while (true) {
         zmq::message_t route, message;
         (void)router.recv(route);
         (void)router.recv(message);
         if (message.size() == 0) return;
+        work_on(questions);
         router.send(route, zmq::send_flags::sndmore);
         router.send(load.answer(message), zmq::send_flags::none);
     }
@@ -215,7 +229,7 @@ PlainPair::PlainPair(const std::string& endpoint, PlainLoad load, std::size_t qu
     if (line == PlainLine::with_keys) exchange_keys(all.router, all.dealer);
     all.router.bind(endpoint);
     all.dealer.connect(all.router.get(zmq::sockopt::last_endpoint));
-    all.answerer = std::jthread([&all] { answer_plainly(all.router, *all.load); });
+    all.answerer = std::jthread([&all, questions] { answer_plainly(all.router, *all.load, questions); });
 }
 
 PlainPair::~PlainPair() { sockets_->dealer.send(zmq::message_t(), zmq::send_flags::none); }

@@ -1,6 +1,7 @@
 // Plain ZeroMQ, for benchmarks of the carrier to be measured beside: a DEALER that asks, a ROUTER that answers.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -15,6 +16,11 @@ namespace lightnet::bench {
 /// Such as a renderer asks about a small scene, and what is answered to each.
 std::vector<Query> some_questions(std::size_t count);
 Rgb answer_to(const Query& question);
+/// Seconds of the processor that whoever answers spends on each question, besides what it costs to carry it: 0 at
+/// first. Of all that answer in this process.
+std::atomic<double>& work_of_question();
+/// Spends them.
+void work_on(std::size_t questions);
 /// Throws when some answer is another.
 void expect_answers(std::span<const Query> questions, std::span<const Rgb> answers);
 
