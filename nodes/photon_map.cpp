@@ -36,8 +36,7 @@ PhotonTree::Photons taken_out_of(std::vector<Mapped<Photon>>& lots, const Servic
 class PhotonMap final : public LightOp {
 public:
     explicit PhotonMap(const NodeContext& here)
-        : here_(here),
-          scene_(here.scene()),
+        : scene_(here.scene()),
           shooting_(Shooting::with_error(here)),
           gather_(static_cast<std::size_t>(here.integer("gather"))),
           radius_(gather_radius(here)) {}
@@ -51,9 +50,7 @@ public:
         const auto aim = take_aim(services, scene_, shooting_);
         services.doing("tries how far photons lie apart");
         const PhotonSpread spread = take_spread(services, scene_, shooting_, *aim, gather_, radius_);
-        const Whereabouts us = here_.whereabouts();
-        services.doing("shoots photons (places: " + std::to_string(us.places) + ", hosts: " + std::to_string(us.hosts) +
-                       ")");
+        services.doing("shoots photons");
         auto lots = shoot_near(services, scene_, shooting_, *aim, spread, radius_);
         services.doing("builds its tree");
         tree_ = services.once<PhotonTree>(
@@ -73,7 +70,6 @@ public:
     Frozen frozen() const override { return Frozen(tree_); }
 
 private:
-    NodeContext here_;
     const Scene& scene_;
     Shooting shooting_;
     std::size_t gather_;

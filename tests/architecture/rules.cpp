@@ -181,7 +181,8 @@ Complaints stray_includes(const SourceFile& file) {
 Complaints words_of_distribution(const SourceFile& file) {
     static const std::regex words(
         R"(\b(zmq\w*|msgpack|j?thread|thread_local|(\w+_)?mutex|atomic\w*|(shared_)?future|promise|async|condition_variable\w*|)"
-        R"(\w*semaphore|latch|barrier|co_await|co_yield|co_return|coroutine|socket|fork|boost/context|boost::context)\b)");
+        R"(\w*semaphore|latch|barrier|co_await|co_yield|co_return|coroutine|socket|fork|boost/context|boost::context|)"
+        R"(whereabouts|Whereabouts|hosts?|hostname|daemon|launcher)\b)");
     Complaints complaints;
     const auto lines = lines_of(code_only(file.text));
     std::smatch match;

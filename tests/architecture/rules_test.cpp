@@ -103,10 +103,11 @@ TEST(Homes, KeepThirdPartiesOutOfHeaders) {
 }
 
 TEST(Nodes, HaveNothingOfDistributionInTheirCode) {
-    for (const std::string word : {"std::thread t;", "std::jthread t;", "std::mutex m;", "std::shared_mutex m;",
-                                   "std::atomic<int> n;", "std::atomic_int n;", "std::future<int> f;", "co_await x;",
-                                   "std::async(f);", "thread_local int n;", "#include <condition_variable>",
-                                   "zmq_send(s);", "msgpack::pack(b, q);", "#include <boost/context/fiber.hpp>"})
+    for (const std::string word :
+         {"std::thread t;", "std::jthread t;", "std::mutex m;", "std::shared_mutex m;", "std::atomic<int> n;",
+          "std::atomic_int n;", "std::future<int> f;", "co_await x;", "std::async(f);", "thread_local int n;",
+          "#include <condition_variable>", "zmq_send(s);", "msgpack::pack(b, q);", "#include <boost/context/fiber.hpp>",
+          "here.whereabouts();", "us.hosts;"})
         EXPECT_THAT(words_of_distribution({"nodes/x.cpp", word}), SizeIs(1)) << word;
 }
 

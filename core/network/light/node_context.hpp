@@ -61,7 +61,9 @@ public:
     std::shared_ptr<T> shared() const {
         return services_.scratch ? services_.scratch->of<T>() : std::make_shared<T>();
     }
-    /// For display, budgets and names of locks alone.
+    /// Bytes that the process may use; 0: not known. A budget: it may end a run, and no answer may follow from it.
+    std::uint64_t memory() const { return whereabouts().memory; }
+    /// For names of locks, and for display by nodes that are examples of it.
     Whereabouts whereabouts() const { return services_.whereabouts ? services_.whereabouts() : Whereabouts{}; }
     /// The node asks about a point that no surface is near: the run says how often it did.
     void count_off_surface() const {
