@@ -43,7 +43,7 @@ std::size_t planned_memory(const NodeContext& here) {
 // from it, as machines differ.
 std::size_t memory_for_photons(const NodeContext& here) {
     const std::size_t planned = planned_memory(here);
-    return here.number("memory") > 0 ? planned : std::max<std::size_t>(planned, here.memory() / 4);
+    return here.number("memory") > 0 ? planned : std::max<std::size_t>(planned, memory_for(here) / 4);
 }
 
 }  // namespace

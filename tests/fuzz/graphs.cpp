@@ -75,7 +75,7 @@ image = RayTracer { bounce, scene = scene, film = { 4, 4, crop = { 0, 0, 2, 2 } 
         R"(strategy = "affinity"
 place "tcp://onyx1:7777" { direct = 1, caustics = 2, places = 4 }
 place "onyx2" {}
-strategy { bounce = "round_robin" }
+strategy { bounce = "affinity" }
 layout { caustics = "sharded" }
 )"};
 }

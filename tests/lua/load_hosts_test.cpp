@@ -48,10 +48,10 @@ TEST(LoadHosts, WantsWholeNumbersOfReplicas) {
 
 TEST(LoadHosts, TakesAStrategyForAllAndForSomeNodes) {
     const Hosts hosts = parse_hosts(
-        "strategy = 'affinity'\nstrategy { sky = 'round_robin', bounce = 'fastest' }\nplace 'tcp://a:7'", "hosts.lua");
+        "strategy = 'affinity'\nstrategy { sky = 'affinity', bounce = 'fastest' }\nplace 'tcp://a:7'", "hosts.lua");
     EXPECT_EQ(hosts.strategies, (std::vector<ChoiceEntry>{{"", "affinity", {"hosts.lua", 1}},
                                                           {"bounce", "fastest", {"hosts.lua", 2}},
-                                                          {"sky", "round_robin", {"hosts.lua", 2}}}));
+                                                          {"sky", "affinity", {"hosts.lua", 2}}}));
     EXPECT_THAT(error_in("strategy = 3"), HasSubstr("hosts.lua:1: strategy is called by name"));
     EXPECT_THAT(error_in("strategy { 'fastest' }"), HasSubstr("nodes and strategies go by name"));
     EXPECT_THAT(error_in("strategy(1)"), HasSubstr("strategy takes a table"));

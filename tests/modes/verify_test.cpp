@@ -121,11 +121,11 @@ INSTANTIATE_TEST_SUITE_P(Who, Liars, ::testing::Values("PathTracing", "DirectLig
 TEST_F(Verify, FindsWhoLiesToOtherHosts) {
     const Daemon asks(folder), honest(folder), other(folder);
     const LyingDaemon liar(folder, "PathTracing", "1");
-    const auto end = on(cornell, small,
-                        "strategy = 'round_robin'\n" + holds(asks.endpoint, "image = 1, lighting = 1, direct = 1") +
-                            holds(honest.endpoint, "bounce = 1") + holds(other.endpoint, "bounce = 1") +
-                            holds(liar.endpoint, "bounce = 1"),
-                        {"--verify", "100%", "--bundle", "64"});
+    const auto end =
+        on(cornell, small,
+           holds(asks.endpoint, "image = 1, lighting = 1, direct = 1") + holds(honest.endpoint, "bounce = 1") +
+               holds(other.endpoint, "bounce = 1") + holds(liar.endpoint, "bounce = 1"),
+           {"--verify", "100%", "--bundle", "64"});
     EXPECT_EQ(end.code, 0) << end.said;
     EXPECT_THAT(end.said, HasSubstr(liar.endpoint + " is taken out, as it answers falsely"));
     EXPECT_THAT(end.said, HasSubstr("(" + asks.endpoint + " asked)"));

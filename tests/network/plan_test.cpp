@@ -113,9 +113,9 @@ TEST(Plan, LeavesOutWhatThePictureDoesNotNeed) {
 
 TEST(Plan, SaysHowAskersChoose) {
     const Plan where =
-        plan_for("strategy = 'affinity'\nstrategy { b = 'round_robin' }\nplace 'tcp://x:1'", {{"tcp://x:1", 1}});
+        plan_for("strategy = 'affinity'\nstrategy { b = 'fastest' }\nplace 'tcp://x:1'", {{"tcp://x:1", 1}});
     EXPECT_EQ(where.strategy_of(0), Strategy::affinity);
-    EXPECT_EQ(where.strategy_of(1), Strategy::round_robin);
+    EXPECT_EQ(where.strategy_of(1), Strategy::fastest);
     EXPECT_EQ(plan_from_json(to_json(where)), where);
 }
 

@@ -264,7 +264,7 @@ TEST_F(MultiplexerTest, LeavesWholeWhatWasLostWithAProcess) {
 TEST_F(MultiplexerTest, IsItselfAChannelAndNests) {
     FakeChannel<Query> a, b, c;
     Multiplexer<Query> pair({&a, &b}, rules());
-    Multiplexer<Query> all({&pair, &c}, rules(Strategy::least_loaded));
+    Multiplexer<Query> all({&pair, &c}, rules());
     for (int i = 0; i < 8; ++i) all.send(bundle_of(1));
     EXPECT_EQ(all.places(), 3u);
     EXPECT_EQ(a.sent.size() + b.sent.size(), 5u) << "two places, and so nearly two thirds";

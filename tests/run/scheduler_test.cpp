@@ -198,27 +198,6 @@ TEST_F(SchedulerTest, WaitsForNoHostThatDrainsBeforeItTestsASuspect) {
     EXPECT_EQ(scheduler.backlog().size(), 0u);
 }
 
-TEST_F(SchedulerTest, TakesTurnsWhenToldSo) {
-    Scheduler::Rules rules;
-    rules.strategy = Strategy::round_robin;
-    use(rules);
-    for (Scheduler::Replica replica = 0; replica < 3; ++replica) join(replica, {8, 1000, 1000});
-    for (Scheduler::WorkId work = 1; work <= 6; ++work) add(work);
-    EXPECT_EQ(tick(), (Replicas{0, 1, 2, 0, 1, 2}));
-}
-
-TEST_F(SchedulerTest, AsksTheLeastLoadedWhenToldSo) {
-    Scheduler::Rules rules;
-    rules.strategy = Strategy::least_loaded;
-    use(rules);
-    join(0, {8, 1000, 1000}), join(1, {8, 1000, 1000});
-    add(1);
-    tick();
-    reply(1, 0, 0, 50);  // others have it busy
-    add(2), add(3);
-    EXPECT_EQ(tick(), (Replicas{1, 1}));
-}
-
 TEST_F(SchedulerTest, SendsARegionHomeUnlessHomeIsOverloaded) {
     Scheduler::Rules rules;
     rules.strategy = Strategy::affinity;
@@ -238,8 +217,7 @@ TEST_F(SchedulerTest, MovesOnlyTheRegionsOfAReplicaThatGoes) {
     use(rules);
     for (Scheduler::Replica replica = 0; replica < 8; ++replica) join(replica);
     std::map<std::uint64_t, Scheduler::Replica> before;
-    for (std::uint64_t region = 0; region < 1000; ++region)
-        before[region] = scheduler.replicas().home(region);
+    for (std::uint64_t region = 0; region < 1000; ++region) before[region] = scheduler.replicas().home(region);
     tell(Scheduler::Gone{{3}, true});
     for (const auto& [region, home] : before)
         EXPECT_TRUE(home == 3 || scheduler.replicas().home(region) == home) << region;

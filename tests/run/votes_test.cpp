@@ -168,7 +168,6 @@ std::size_t answers_until_found(std::uint64_t secret, std::size_t most) {
     bool found = false;
     MultiplexerRules rules;
     rules.clock = [] { return 0.0; };
-    rules.scheduling.strategy = Strategy::round_robin;
     rules.checks = SpotChecks(20'000, secret);
     rules.doubt = [&](const Failure& lie) {
         EXPECT_EQ(lie.host, "liar");
@@ -181,7 +180,7 @@ std::size_t answers_until_found(std::uint64_t secret, std::size_t most) {
     const auto queries = std::make_shared<const std::vector<Query>>(1);
     std::size_t answers = 0;
     while (answers < most && !found) {
-        replicas.send({queries, &owner, 1, 1});
+        for (std::size_t i = 0; i < std::size(channels); ++i) replicas.send({queries, &owner, 1, 1});
         owner.answers.clear();
         for (bool any = true; any; replicas.tick()) {
             any = false;

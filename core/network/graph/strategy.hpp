@@ -9,14 +9,12 @@
 namespace lightnet {
 
 enum class Strategy : std::uint8_t {
-    fastest,       // who is expected to finish first: outstanding work, fill level, measured service time
-    least_loaded,  // who has the fewest questions waiting, as he said with his last reply
-    round_robin,   // in turn
-    affinity,      // the same region of the scene or image to the same replica, while it is not overloaded
+    fastest,   // who is expected to finish first: outstanding work, fill level, measured service time
+    affinity,  // the same region of the scene or image to the same replica, while it is not overloaded
 };
 
 /// As they are called in hosts files, in the order of the enum.
-inline constexpr std::array<std::string_view, 4> strategy_names{"fastest", "least_loaded", "round_robin", "affinity"};
+inline constexpr std::array<std::string_view, 2> strategy_names{"fastest", "affinity"};
 
 constexpr std::string_view name_of(Strategy strategy) { return strategy_names[static_cast<std::size_t>(strategy)]; }
 

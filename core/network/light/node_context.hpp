@@ -61,9 +61,7 @@ public:
     std::shared_ptr<T> shared() const {
         return services_.scratch ? services_.scratch->of<T>() : std::make_shared<T>();
     }
-    /// Bytes that the process may use; 0: not known. A budget: it may end a run, and no answer may follow from it.
-    std::uint64_t memory() const { return whereabouts().memory; }
-    /// For names of locks, and for display by nodes that are examples of it.
+    /// For names of locks, and for display by nodes that are examples of it. Memory: see memory_for().
     Whereabouts whereabouts() const { return services_.whereabouts ? services_.whereabouts() : Whereabouts{}; }
     /// The node asks about a point that no surface is near: the run says how often it did.
     void count_off_surface() const {
@@ -105,5 +103,8 @@ private:
     std::uint64_t seed_;
     NodeServices services_;
 };
+
+/// Bytes that the node's process may use; 0: not known. A budget: it may end a run, and no answer may follow from it.
+inline std::uint64_t memory_for(const NodeContext& here) { return here.whereabouts().memory; }
 
 }  // namespace lightnet

@@ -66,8 +66,8 @@ std::optional<Replica> choose(ScheduleState& state, const Item& item) {
         best = *idle;
     }
     if (state.rules.strategy == Strategy::affinity && state.book.has_homes()) return home_or(state, item, best);
-    if (state.rules.strategy == Strategy::fastest && better_held_back(state, item, best)) return std::nullopt;
-    return best;
+    const bool fastest = state.rules.strategy == Strategy::fastest;
+    return fastest && better_held_back(state, item, best) ? std::nullopt : std::optional(best);
 }
 
 }  // namespace lightnet

@@ -67,11 +67,4 @@ bool ReplicaBook::leave(Replica replica) {
     return true;
 }
 
-void ReplicaBook::take_turn(Replica replica) {
-    auto& state = states_[replica];
-    if (++state.in_turn < state.places) return;
-    state.turn = ++turn_;
-    state.in_turn = 0;
-}
-
 }  // namespace lightnet

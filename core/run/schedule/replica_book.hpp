@@ -33,8 +33,6 @@ public:
         double patience = 0;
         Time last_reply = 0;
         Time last_sign = 0;  // of life
-        std::uint64_t turn = 0;
-        std::uint32_t in_turn = 0;  // sent since its last turn
 
         void replied(Time now) { last_reply = last_sign = now, silent = false; }
     };
@@ -53,8 +51,6 @@ public:
     void drain(const ScheduleTerms::Draining& event);
     /// Returns whether it was the last of its host.
     bool leave(Replica replica);
-    /// It was sent something: the next is another's turn when all its places had theirs.
-    void take_turn(Replica replica);
 
     /// Replicas that are present.
     const OnHosts& on_hosts() const { return hosts_; }
@@ -78,7 +74,6 @@ private:
     HashRing homes_;
     std::optional<Replica> reserve_;
     std::size_t present_ = 0, places_ = 0, elsewhere_ = 0;
-    std::uint64_t turn_ = 0;
 };
 
 }  // namespace lightnet

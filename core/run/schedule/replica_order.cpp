@@ -48,16 +48,8 @@ bool ReplicaOrder::is_open(Replica replica) const {
 double ReplicaOrder::key(Replica replica) const {
     const auto& state = at_.book[replica];
     if (state.reserve) return behind_all;
-    switch (strategy_) {
-        case Strategy::round_robin:
-            return static_cast<double>(state.turn);
-        case Strategy::least_loaded:
-            return ahead(replica);
-        default: {
-            const double service = times_.of(replica);
-            return (ahead(replica) + usual_) * (service > 0 ? service : ServiceTimes::unknown);
-        }
-    }
+    const double service = times_.of(replica);
+    return (ahead(replica) + usual_) * (service > 0 ? service : ServiceTimes::unknown);
 }
 
 // ---- keeping the order ----

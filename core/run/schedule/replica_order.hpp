@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "core/network/graph/strategy.hpp"
 #include "core/run/schedule/in_flight.hpp"
 #include "core/run/schedule/replica_book.hpp"
 #include "core/run/schedule/service_times.hpp"
@@ -15,8 +14,8 @@
 
 namespace lightnet {
 
-/// Keeps replicas in the order of a strategy, by what is under way to them and how long they took so far. Each change
-/// of a replica costs O(log replicas). One thread's.
+/// Keeps replicas in the order in which they would be done, by what is under way to them and how long they took so far.
+/// Each change of a replica costs O(log replicas). One thread's.
 class ReplicaOrder {
 public:
     using Replica = ScheduleIds::Replica;
@@ -27,7 +26,7 @@ public:
         const InFlight& in_flight;
         const Suspects& suspects;
     };
-    ReplicaOrder(Looks at, Strategy strategy) : at_(at), strategy_(strategy) {}
+    explicit ReplicaOrder(Looks at) : at_(at) {}
 
     /// Something of this replica has changed.
     void refresh(Replica replica);
@@ -64,7 +63,6 @@ private:
     double ahead(Replica replica) const;
 
     Looks at_;
-    Strategy strategy_;
     ServiceTimes times_;
     // Who takes more work, and who of them is idle but for the reserve, by key(); those of known speed, open or not, by
     // completion of usual work.

@@ -8,7 +8,7 @@ ScheduleState::ScheduleState(const ScheduleTerms::Rules& its_rules)
     : rules(its_rules),
       suspects(static_cast<std::size_t>(its_rules.deaths_alone)),
       book(its_rules.strategy == Strategy::affinity),
-      order({book, in_flight, suspects}, its_rules.strategy) {}
+      order({book, in_flight, suspects}) {}
 
 void ScheduleState::refresh(ScheduleIds::Replica replica) {
     order.refresh(replica);
@@ -56,7 +56,6 @@ void ScheduleState::send(Item& item, ScheduleIds::Replica replica, ScheduleIds::
                                              .late = now + late_after(expected),
                                              .overdue = now + patience,
                                              .patience = patience});
-    book.take_turn(replica);
     item.copies.push_back(id);
     refresh(replica);
     for (const auto other : item.copies)
