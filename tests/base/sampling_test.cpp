@@ -5,6 +5,7 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/samples.hpp"
+#include "core/base/math/turns.hpp"
 
 namespace lightnet::sampling_test {
 namespace {
@@ -24,6 +25,23 @@ TEST(Sampling, SineAndCosineMatchTheLibrary) {
         EXPECT_NEAR(sine, std::sin(x), 2e-7f);
         EXPECT_NEAR(cosine, std::cos(x), 2e-7f);
     }
+}
+
+TEST(Turns, AreThoseOfTheLibraryInEveryQuarter) {
+    for (int i = -40000; i <= 40000; ++i) {
+        const double angle = i * (std::numbers::pi / 40000);
+        const auto x = float(3 * std::cos(angle)), y = float(3 * std::sin(angle));
+        ASSERT_NEAR(turns(y, x), std::atan2(double{y}, double{x}) / (2 * std::numbers::pi), 1e-7) << i;
+        const auto part = float(i) / 80000;
+        const auto [sine, cosine] = sine_cosine_of_turns(part);
+        ASSERT_NEAR(sine, std::sin(2 * std::numbers::pi * part), 2e-7) << i;
+        ASSERT_NEAR(cosine, std::cos(2 * std::numbers::pi * part), 2e-7) << i;
+    }
+    EXPECT_EQ(turns(0, 0), 0);
+    EXPECT_EQ(turns(0, -2), 0.5f);
+    EXPECT_EQ(turns(-3, 0), -0.25f);
+    EXPECT_EQ(turns(1e-30f, 1), 1e-30f * (0.5f * inverse_pi));  // small angles keep their digits
+    EXPECT_EQ(sine_cosine_of_turns(-0.25f).sine, -1);
 }
 
 TEST(Sampling, FillsTheDiskEvenly) {

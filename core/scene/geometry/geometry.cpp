@@ -237,7 +237,7 @@ struct Geometry::Tracer {
         rtcReleaseGeometry(geometry);
     }
     void commit(RTCScene what) const {
-        // No ray may slip between two triangles that share an edge.
+        // DECISIONS: robust-trees
         rtcSetSceneFlags(what, hair ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneProgressMonitorFunction(what, goes_on, const_cast<std::atomic<bool>*>(LookingAt::now()));
         rtcCommitScene(what);

@@ -1,12 +1,12 @@
 #include "core/scene/lamps/environment.hpp"
 
+#include "core/base/math/columns.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/sky_layout.hpp"
-#include "core/scene/lamps/prefix_cdf.hpp"
+#include "core/base/math/turns.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -84,12 +84,13 @@ Rgb Environment::pixel(std::int64_t x, std::int64_t y) const {
 void Environment::weigh() {
     const std::size_t w = width_, h = height_;
     std::vector<float> light(w * h);
+    bool all_usable = true;
     double r = 0, g = 0, b = 0;
     for (std::uint32_t y = 0; y < h; ++y) {
         const double angle = row_solid_angle(y) / double(w);
         for (std::uint32_t x = 0; x < w; ++x) {
             const Rgb raw = image_->colour(x, y), c = pixel(x, y) * scale_;
-            all_usable_ &= raw.r == usable(raw.r) && raw.g == usable(raw.g) && raw.b == usable(raw.b);
+            all_usable &= raw.r == usable(raw.r) && raw.g == usable(raw.g) && raw.b == usable(raw.b);
             light[y * w + x] = luminance(c);
             r += c.r * angle;
             g += c.g * angle;
@@ -97,12 +98,13 @@ void Environment::weigh() {
         }
     }
     total_ = {float(r), float(g), float(b)};
+    if (all_usable) numbers_ = image_->linear_rgb();
 
     const auto at = [&](std::int64_t x, std::int64_t y) {
         wrap(x, y, width_, height_, layout_);
         return light[std::size_t(y) * w + std::size_t(x)];
     };
-    columns_.resize(w * h);
+    cells_ = SkyCells(width_, height_);
     std::vector<double> row(w), rows(h);
     const double mean = 64 * luminance(total_) / (4 * std::numbers::pi);
     double all = 0, bright = 0;
@@ -120,82 +122,176 @@ void Environment::weigh() {
             row[x] = std::max(0.0, row[x] - mean);
         }
         const double angle = row_solid_angle(std::uint32_t(y));
-        rows[y] = prefix_cdf(std::span<const double>(row), std::span(columns_).subspan(y * w, w)) * angle;
+        rows[y] = cells_.set_row(std::uint32_t(y), row) * angle;
         all += in_row * angle;
         bright += rows[y];
     }
     bright_share_ = all > 0 ? float(bright / all) : 0;
-    prefix_cdf(rows, rows_);
-    mark_all();
+    cells_.finish(rows);
+    list_rows();
 }
 
-// A mark for 16 cells: those are a line or two of the cache, and all marks may stay in it.
-void Environment::mark_all() {
-    const auto marks_for = [](std::size_t cells) { return std::bit_ceil(std::max<std::size_t>(1, cells / 16)) + 1; };
-    row_marks_.resize(marks_for(height_));
-    mark(rows_, row_marks_);
-    marks_per_row_ = marks_for(width_);
-    marks_.resize(marks_per_row_ * height_);
-    for (std::size_t y = 0; y < height_; ++y)
-        mark(columns_of(y), std::span(marks_).subspan(y * marks_per_row_, marks_per_row_));
-    for (std::uint32_t y = 0; y < height_; ++y) density_.push_back(float(double(width_) / row_solid_angle(y)));
+void Environment::list_rows() {
+    for (std::uint32_t y = 0; y < height_; ++y)
+        density_.push_back(cells_.share_of_row(y) * float(double(width_) / row_solid_angle(y)));
     for (std::size_t y = 0; y <= height_; ++y) {
         const float half = std::sin(pi / 2 * float(y) / float(height_));
         drops_.push_back(2 * half * half);
     }
 }
 
-Vec2 Environment::to_square(Vec3 direction) const {
-    const Vec3 d = axes_.to_local(direction);
-    const Vec2 p = layout_ == EnvironmentData::Layout::equal_area ? to_equal_area(d) : to_latitude_longitude(d);
-    const auto within = [](float t) { return t >= 0 && t <= 1 ? t : t > 1 ? 1.0f : 0.0f; };  // no number: 0
-    return {within(p.x), within(p.y)};
-}
+struct Environment::Spot {
+    std::int32_t x, y;
+    float dx, dy;
+};
 
-Rgb Environment::radiance_at(Vec2 p) const {
-    const float x = p.x * float(width_) - 0.5f, y = p.y * float(height_) - 0.5f;
-    const float left = std::floor(x), top = std::floor(y), dx = x - left, dy = y - top;
-    const auto i = std::int64_t(left), j = std::int64_t(top);
-    const bool inside = i >= 0 && j >= 0 && i + 1 < width_ && j + 1 < height_;
-    if (inside && all_usable_) {
-        const auto column = std::uint32_t(i), row = std::uint32_t(j);
-        return scale_ * image_->square(column, column + 1, row, row + 1).bilinear(dx, dy);
+/// What turns directions into places of the map, for one layout of it: a value, which loops keep in registers.
+template <EnvironmentData::Layout layout>
+struct Environment::Placing {
+    explicit Placing(const Environment& sky) : axes(sky.axes_), width(float(sky.width_)), height(float(sky.height_)) {}
+
+    [[gnu::always_inline]] Vec2 square(Vec3 direction) const {
+        const Vec3 d = axes.to_local(direction);
+        const Vec2 p = layout == Layout::equal_area ? to_equal_area(d) : to_latitude_longitude(d);
+        const auto within = [](float t) { return t >= 0 ? (t <= 1 ? t : 1.0f) : 0.0f; };  // no number: 0
+        return {within(p.x), within(p.y)};
     }
-    return scale_ * Image::Square{pixel(i, j), pixel(i + 1, j), pixel(i, j + 1), pixel(i + 1, j + 1)}.bilinear(dx, dy);
+    [[gnu::always_inline]] Spot spot(Vec2 p) const {
+        const float x = p.x * width - 0.5f, y = p.y * height - 0.5f;
+        const float left = std::floor(x), top = std::floor(y);
+        return {std::int32_t(left), std::int32_t(top), x - left, y - top};
+    }
+    /// Uniform by solid angle: in rows of longitudes in the cosine, counted from the nearer pole, between whose edges
+    /// `drops` is 1 - cos of the angle.
+    [[gnu::always_inline]] Vec3 direction(Vec2 cell, Vec2 within, Vec2 drops, Vec2& square) const {
+        const float across = (cell.x + within.x) / width;
+        if constexpr (layout == Layout::equal_area) {
+            square = {across, (cell.y + within.y) / height};
+            return axes.to_world(from_equal_area(square));
+        }
+        const bool below = 2 * cell.y >= height;
+        const float away = drops.x + (drops.y - drops.x) * (below ? 1 - within.y : within.y);
+        const float sine = std::sqrt(away * (2 - away)), up = below ? away - 1 : 1 - away;
+        square = {across <= 1 ? across : 1.0f, 2 * turns(sine, up)};
+        square.y = square.y <= 1 ? square.y : 1.0f;
+        const auto phi = sine_cosine_of_turns(across - 0.5f);
+        return axes.to_world({sine * phi.sine, up, -sine * phi.cosine});
+    }
+
+    Frame axes;
+    float width, height;
+};
+
+// Calls `use` with the Placing of the map's layout.
+template <class Use>
+[[gnu::always_inline]] inline auto Environment::placed(const Use& use) const {
+    if (layout_ == Layout::equal_area) return use(Placing<Layout::equal_area>(*this));
+    return use(Placing<Layout::latitude_longitude>(*this));
 }
 
-float Environment::pdf_of(std::size_t x, std::size_t y) const {
-    return share_of(rows_, y) * share_of(columns_of(y), x) * density_[y];
+/// Places in the map, many at once.
+struct Environment::Places {
+    Places(const Environment& environment, std::size_t places) : sky(environment), count(places) {}
+
+    [[gnu::always_inline]] void find_spots(const auto& placing) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Spot spot = placing.spot(squares[i]);
+            x[i] = spot.x;
+            y[i] = spot.y;
+            between.set(i, {spot.dx, spot.dy});
+        }
+    }
+    Rgb radiance(std::size_t i) const { return sky.radiance_at({x[i], y[i], between.x[i], between.y[i]}); }
+
+    const Environment& sky;
+    std::size_t count;
+    Columns3 directions;
+    Columns2 squares, between;
+    std::array<std::int32_t, lanes> x, y;
+};
+
+/// Of directions.
+struct Environment::Looking : Places {
+    using Places::Places;
+    [[gnu::always_inline]] void work() {
+        sky.placed([this](const auto& placing) __attribute__((always_inline)) {
+            for (std::size_t i = 0; i < count; ++i) squares.set(i, placing.square(directions[i]));
+            find_spots(placing);
+        });
+    }
+};
+
+/// Of cells.
+struct Environment::Seeing : Places {
+    using Places::Places;
+    [[gnu::always_inline]] void work() {
+        sky.placed([this](const auto& placing) __attribute__((always_inline)) {
+            for (std::size_t i = 0; i < count; ++i) {
+                Vec2 square;
+                const Vec2 cell{float(std::int32_t(cells.x[i])), float(std::int32_t(cells.y[i]))};
+                directions.set(i, placing.direction(cell, cells.within[i], drops[i], square));
+                squares.set(i, square);
+            }
+            find_spots(placing);
+        });
+    }
+
+    SkyCellColumns cells;
+    Columns2 drops;
+};
+
+inline Rgb Environment::radiance_at(const Spot& spot) const {
+    const auto [x, y, dx, dy] = spot;
+    const bool inside = x >= 0 && y >= 0 && std::uint32_t(x) + 1 < width_ && std::uint32_t(y) + 1 < height_;
+    if (inside && numbers_) {
+        const float* upper = numbers_ + 3 * (std::size_t(y) * width_ + std::size_t(x));
+        const float* lower = upper + 3 * std::size_t{width_};
+        const auto colour = [](const float* at) { return Rgb{at[0], at[1], at[2]}; };
+        return scale_ *
+               Image::Square{colour(upper), colour(upper + 3), colour(lower), colour(lower + 3)}.bilinear(dx, dy);
+    }
+    return scale_ * at_the_rim(spot);
 }
 
-// Who finds light there often asks for its density next, which is fetched meanwhile.
+Rgb Environment::at_the_rim(const Spot& spot) const {
+    const auto [x, y, dx, dy] = spot;
+    return Image::Square{pixel(x, y), pixel(x + 1, y), pixel(x, y + 1), pixel(x + 1, y + 1)}.bilinear(dx, dy);
+}
+
+inline float Environment::pdf_at(Vec2 p) const {
+    const std::uint32_t x = cell(p.x, width_), y = cell(p.y, height_);
+    return cells_.share_in_row(x, y) * density_[y];
+}
+
 Rgb Environment::radiance(Vec3 direction) const {
     if (!image_) return scale_;
-    const Vec2 p = to_square(direction);
-    __builtin_prefetch(&columns_of(cell(p.y, height_))[cell(p.x, width_)]);
-    return radiance_at(p);
+    return placed([&](const auto& placing) { return radiance_at(placing.spot(placing.square(direction))); });
 }
 
 float Environment::pdf(Vec3 direction) const {
     if (!image_) return inverse_pi / 4;
-    const Vec2 p = to_square(direction);
-    return pdf_of(cell(p.x, width_), cell(p.y, height_));
+    return placed([&](const auto& placing) { return pdf_at(placing.square(direction)); });
 }
 
 SkyRadiance Environment::look(Vec3 direction) const {
     if (!image_) return {direction, scale_, inverse_pi / 4};
-    const Vec2 p = to_square(direction);
-    return {direction, radiance_at(p), pdf_of(cell(p.x, width_), cell(p.y, height_))};
+    return placed([&](const auto& placing) {
+        const Vec2 p = placing.square(direction);
+        return SkyRadiance{direction, radiance_at(placing.spot(p)), pdf_at(p)};
+    });
 }
 
-void Environment::expect(Vec2 p) const {
-    const auto before = [](float at, std::uint32_t count) {
-        return std::uint32_t(
-            std::clamp(std::int64_t(std::floor(at * float(count) - 0.5f)), std::int64_t{0}, std::int64_t{count} - 1));
-    };
-    const std::uint32_t x = before(p.x, width_), y = before(p.y, height_);
-    image_->expect(x, y);
-    image_->expect(x, std::min(y + 1, height_ - 1));
+// Both rows of pixels that lie around.
+inline void Environment::expect(std::int64_t x, std::int64_t y) const {
+    const auto column = std::uint32_t(std::max<std::int64_t>(0, x)), row = std::uint32_t(std::max<std::int64_t>(0, y));
+    const std::uint32_t below = std::min(row + 1, height_ - 1);
+    if (!numbers_) {
+        image_->expect(column, row);
+        image_->expect(column, below);
+        return;
+    }
+    __builtin_prefetch(numbers_ + 3 * (std::size_t{row} * width_ + column));
+    __builtin_prefetch(numbers_ + 3 * (std::size_t{below} * width_ + column));
 }
 
 void Environment::look(std::span<const Vec3> directions, std::span<SkyRadiance> seen) const {
@@ -203,51 +299,30 @@ void Environment::look(std::span<const Vec3> directions, std::span<SkyRadiance> 
         for (std::size_t i = 0; i < directions.size(); ++i) seen[i] = look(directions[i]);
         return;
     }
-    std::array<Vec2, lanes> squares;
+    Looking looking(*this, directions.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) looking.directions.set(i, directions[i]);
+    work_in_lanes(looking);
     for (std::size_t i = 0; i < directions.size(); ++i) {
-        squares[i] = to_square(directions[i]);
-        __builtin_prefetch(&columns_of(cell(squares[i].y, height_))[cell(squares[i].x, width_)]);
-        expect(squares[i]);
+        __builtin_prefetch(cells_.at(cell(looking.squares.x[i], width_), cell(looking.squares.y[i], height_)));
+        expect(looking.x[i], looking.y[i]);
     }
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-        const Vec2 p = squares[i];
-        seen[i] = {directions[i], radiance_at(p), pdf_of(cell(p.x, width_), cell(p.y, height_))};
-    }
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        seen[i] = {directions[i], looking.radiance(i), pdf_at(looking.squares[i])};
 }
 
-void Environment::find_row(float u, Cell& cell) const {
-    cell.y = pick(rows_, row_marks_, u);
-    cell.within.y = u;
-}
-
-void Environment::find_column(float u, Cell& cell) const {
-    cell.x = pick(columns_of(cell.y), marks_of(cell.y), u);
-    cell.within.x = u;
-}
-
-// Uniform by solid angle: in rows of longitudes in the cosine, counted from the nearer pole.
-SkyRadiance Environment::seen_in(const Cell& cell) const {
-    const auto [x, y, within] = cell;
-    const float across = (float(x) + within.x) / float(width_), pdf = pdf_of(x, y);
-    if (layout_ == EnvironmentData::Layout::equal_area) {
-        const Vec2 p{across, (float(y) + within.y) / float(height_)};
-        return {axes_.to_world(from_equal_area(p)), radiance_at(p), pdf};
-    }
-    const bool below = 2 * y >= height_;
-    const std::size_t from_pole = below ? height_ - 1 - y : y;
-    const float first = drops_[from_pole], last = drops_[from_pole + 1];
-    const float away = first + (last - first) * (below ? 1 - within.y : within.y), sine = std::sqrt(away * (2 - away));
-    const float height = below ? away - 1 : 1 - away, phi = 2 * pi * (across - 0.5f);
-    const Vec2 p{std::min(across, 1.0f), std::min(std::atan2(sine, height) / pi, 1.0f)};
-    return {axes_.to_world({sine * std::sin(phi), height, -sine * std::cos(phi)}), radiance_at(p), pdf};
+Vec2 Environment::drops_of(std::uint32_t y) const {
+    const std::uint32_t from_pole = 2 * y >= height_ ? height_ - 1 - y : y;
+    return {drops_[from_pole], drops_[from_pole + 1]};
 }
 
 SkyRadiance Environment::sample(Vec2 u) const {
     if (!image_) return {sphere(u), scale_, inverse_pi / 4};
-    Cell cell;
-    find_row(u.y, cell);
-    find_column(u.x, cell);
-    return seen_in(cell);
+    const SkyCell cell = cells_.find(u);
+    return placed([&](const auto& placing) {
+        Vec2 square;
+        const Vec3 direction = placing.direction({float(cell.x), float(cell.y)}, cell.within, drops_of(cell.y), square);
+        return SkyRadiance{direction, radiance_at(placing.spot(square)), cell.share * density_[cell.y]};
+    });
 }
 
 // What sample() leaves out is even, or nearly so, and taken as if it were.
@@ -262,26 +337,21 @@ SkyRadiance Environment::sample_all(Vec2 u) const {
 }
 
 void Environment::sample(std::span<const Vec2> u, std::span<SkyRadiance> seen) const {
-    std::array<Cell, lanes> cells;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        find_row(u[i].y, cells[i]);
-        const auto marks = marks_of(cells[i].y);
-        const auto piece = std::size_t(u[i].x * float(marks_per_row_ - 1));
-        __builtin_prefetch(&marks[piece]);
+    if (!image_) {
+        for (std::size_t i = 0; i < u.size(); ++i) seen[i] = sample(u[i]);
+        return;
     }
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        const auto marks = marks_of(cells[i].y);
-        const auto piece = std::size_t(u[i].x * float(marks_per_row_ - 1));
-        __builtin_prefetch(&columns_of(cells[i].y)[(marks[piece] + marks[piece + 1]) / 2]);
+    Seeing seeing(*this, u.size());
+    const SkyCellColumns& cells = seeing.cells;
+    cells_.find(u, seeing.cells);
+    for (std::size_t i = 0; i < u.size(); ++i) {  // before their places are known: those take a while
+        expect(std::int64_t{cells.x[i]} - (cells.within.x[i] < 0.5f),
+               std::int64_t{cells.y[i]} - (cells.within.y[i] < 0.5f));
+        seeing.drops.set(i, drops_of(cells.y[i]));
     }
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        auto& [x, y, within] = cells[i];
-        find_column(u[i].x, cells[i]);
-        const std::size_t left = within.x < 0.5f && x > 0 ? x - 1 : x, above = within.y < 0.5f && y > 0 ? y - 1 : y;
-        image_->expect(std::uint32_t(left), std::uint32_t(above));
-        image_->expect(std::uint32_t(left), std::uint32_t(std::min<std::size_t>(above + 1, height_ - 1)));
-    }
-    for (std::size_t i = 0; i < u.size(); ++i) seen[i] = seen_in(cells[i]);
+    work_in_lanes(seeing);
+    for (std::size_t i = 0; i < u.size(); ++i)
+        seen[i] = {{seeing.directions[i]}, seeing.radiance(i), cells.share[i] * density_[cells.y[i]]};
 }
 
 }  // namespace lightnet

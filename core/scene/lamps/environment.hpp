@@ -13,6 +13,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/data/scene_data.hpp"
+#include "core/scene/lamps/sky_cells.hpp"
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
 
@@ -55,44 +56,39 @@ public:
     /// Irradiance of its mean over all directions, were it all to arrive head-on: ∫ radiance dω, W·m⁻².
     Rgb total() const { return total_; }
     /// Bytes, without the image.
-    std::size_t memory() const { return (columns_.size() + rows_.size() + marks_.size()) * sizeof(float); }
+    std::size_t memory() const { return cells_.memory(); }
 
 private:
-    /// A cell, and the place within it: (0, 0) is its upper left corner.
-    struct Cell {
-        std::size_t x = 0, y = 0;
-        Vec2 within;
-    };
+    using Layout = EnvironmentData::Layout;
+    /// Four pixels, by the upper left one, and the place between their middles.
+    struct Spot;
+    template <Layout layout>
+    struct Placing;
+    struct Places;
+    struct Looking;
+    struct Seeing;
     Rgb pixel(std::int64_t x, std::int64_t y) const;
     void weigh();
-    void mark_all();
+    void list_rows();
     double row_solid_angle(std::uint32_t y) const;
-    Vec2 to_square(Vec3 direction) const;
-    Rgb radiance_at(Vec2 square) const;
-    /// Fetches the pixels around.
-    void expect(Vec2 square) const;
-    float pdf_of(std::size_t x, std::size_t y) const;
-    SkyRadiance seen_in(const Cell& cell) const;
-    std::span<const float> columns_of(std::size_t y) const { return std::span(columns_).subspan(y * width_, width_); }
-    std::span<const std::uint32_t> marks_of(std::size_t y) const {
-        return std::span(marks_).subspan(y * marks_per_row_, marks_per_row_);
-    }
-    void find_row(float u, Cell& cell) const;
-    void find_column(float u, Cell& cell) const;
+    template <class Use>
+    auto placed(const Use& use) const;
+    Rgb radiance_at(const Spot& spot) const;
+    Rgb at_the_rim(const Spot& spot) const;
+    void expect(std::int64_t x, std::int64_t y) const;
+    float pdf_at(Vec2 square) const;
+    Vec2 drops_of(std::uint32_t y) const;
 
     std::optional<Portal> portal_;
     Rgb scale_;
     std::shared_ptr<const Image> image_;
+    const float* numbers_ = nullptr;  // the image's, where these are all usable, and three a pixel
     EnvironmentData::Layout layout_;
     Frame axes_;  // its own, in world space
     std::uint32_t width_ = 0, height_ = 0;
-    std::vector<float> rows_;                       // share of the light up to and with each row
-    std::vector<float> columns_;                    // by row: share of the row's light up to and with each column
-    std::vector<std::uint32_t> row_marks_, marks_;  // where to look in rows_; in columns_, by row: see mark()
-    std::size_t marks_per_row_ = 0;
-    std::vector<float> density_;  // by row: sr⁻¹ in a cell that has all light
+    SkyCells cells_;
+    std::vector<float> density_;  // by row: sr⁻¹ in a cell that has all light of its row
     std::vector<float> drops_;    // by edge of a row of longitudes, from the upper pole: 1 - cos of the angle
-    bool all_usable_ = true;      // each number of the picture
     Rgb total_;
     float bright_share_ = 0;  // of all light: what sample() goes by
 };

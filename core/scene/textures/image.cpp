@@ -66,6 +66,11 @@ Image::Square Image::square(std::uint32_t left, std::uint32_t right, std::uint32
     return all([from = std::get<std::vector<float>>(numbers_).data()](std::size_t at) { return from[at]; });
 }
 
+const float* Image::linear_rgb() const {
+    const auto* numbers = std::get_if<std::vector<float>>(&numbers_);
+    return numbers && channels_ == 3 ? numbers->data() : nullptr;
+}
+
 const void* Image::where(std::uint32_t x, std::uint32_t y) const {
     const std::size_t at = (std::size_t{y} * width + x) * channels_;
     return std::visit([&](const auto& numbers) -> const void* { return &numbers[at]; }, numbers_);

@@ -44,6 +44,8 @@ public:
         }
     };
     Square square(std::uint32_t left, std::uint32_t right, std::uint32_t above, std::uint32_t below) const;
+    /// All pixels' linear red, green and blue, row by row, if it keeps just these; else null.
+    const float* linear_rgb() const;
     /// Where its first number lies in memory.
     const void* where(std::uint32_t x, std::uint32_t y) const;
     /// A pixel that will soon be asked for.
