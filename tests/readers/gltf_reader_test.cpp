@@ -74,6 +74,13 @@ TEST(Gltf, KnowsStripsAndFans) {
                 HasSubstr("there are no triangles"));
 }
 
+TEST(Gltf, WithACameraMayShowNothingButWhatIsAround) {
+    const auto scene = read_gltf(with_triangle(R"("cameras":[{"type":"perspective","perspective":{"yfov":1}}],
+      "nodes":[{"mesh":0,"extensions":{"KHR_node_visibility":{"visible":false}}},{"camera":0}],)"));
+    EXPECT_TRUE(scene.shapes.empty());
+    EXPECT_THAT(warnings_of(scene), HasSubstr("nothing is seen but what is around the scene"));
+}
+
 TEST(Gltf, PaintsByColoursOfVertices) {
     const auto scene = read_gltf(with_triangle(one_node, R"({"attributes":{"POSITION":0,"COLOR_0":3}})"));
     EXPECT_EQ(mesh_of(scene).colours[1], (Rgb{0, 1, 0}));

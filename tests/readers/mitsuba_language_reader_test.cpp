@@ -10,6 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 const std::string sphere = "<shape type='sphere'/>";
@@ -134,6 +135,31 @@ TEST(MitsubaFiles, AreWrongInManyPlacesAtOnce) {
     EXPECT_THAT(errors, HasSubstr("scene.xml:2: shape 'obj' needs a 'filename'"));
     EXPECT_THAT(errors, HasSubstr("scene.xml:4: a finite number expected, not 'x'"));
     EXPECT_THAT(errors, HasSubstr("scene.xml:5: can't read a file: none.ply: no such file"));
+}
+
+TEST(MitsubaFiles, HoldTheLastOfAParameterThatIsGivenTwice) {
+    const auto scene = read_mitsuba(
+        "<shape type='sphere'><float name='radius' value='3'/><float name='radius' "
+        "value='2'/></shape><emitter type='constant'/>");
+    EXPECT_EQ(std::get<Sphere>(scene.shapes.at(0).geometry).radius, 2);
+    EXPECT_THAT(warnings_of(scene),
+                HasSubstr("parameter 'radius' of shape 'sphere' is given twice: the last one holds"));
+}
+
+TEST(MitsubaFiles, MayBeNothingButASky) {
+    const auto scene = read_mitsuba("<sensor type='perspective'/><emitter type='constant'/>");
+    EXPECT_TRUE(scene.shapes.empty());
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(MitsubaFiles, NameWhatTheirIntegratorsHide) {
+    const auto with = [](const std::string& value) {
+        return warnings_of(
+            read_mitsuba("<integrator type='aov'><integrator type='path'><boolean name='hideEmitters' value='" + value +
+                         "'/></integrator></integrator><shape type='sphere'/>"));
+    };
+    EXPECT_THAT(with("true"), HasSubstr("'hide_emitters' is left out: the camera sees lamps"));
+    EXPECT_THAT(with("false"), Not(HasSubstr("hide_emitters")));
 }
 
 TEST(MitsubaFiles, MustBeSoundXml) {

@@ -45,7 +45,7 @@ SceneData read(const std::string& elements) {
 bool same_camera(const CameraData& a, const CameraData& b) {
     return a.to_world == b.to_world && a.projection.index() == b.projection.index() && a.fov == b.fov &&
            a.screen == b.screen && a.lens_radius == b.lens_radius && a.focus_distance == b.focus_distance &&
-           a.nearest == b.nearest;
+           a.nearest == b.nearest && a.farthest == b.farthest;
 }
 
 TEST_P(EveryParameter, CountsOrIsNamed) {

@@ -67,6 +67,25 @@ TEST(MitsubaPrincipled, HasDisneysSheen) {
     EXPECT_NEAR(albedo(thin, slanted), 0.0195 / 2, 0.0003);
 }
 
+// A texture of one colour says what the number says.
+TEST(MitsubaPrincipled, TakesTexturesForItsSpecularAndItsGrooves) {
+    const auto even = [](const std::string& name, float value) {
+        return "<texture type='checkerboard' name='" + name + "'>" + number("color0", value) + number("color1", value) +
+               "</texture>";
+    };
+    const Vec3 up{0, 0, 1}, out = normalize({0.4f, 0.2f, 1});
+    for (const std::string name : {"specular", "anisotropic"})
+        for (const float value : {0.0f, 0.3f, 1.0f}) {
+            const Rgb by_number = principled("principled", number(name.c_str(), value)).evaluate(out, up, lobe::all);
+            const Rgb by_texture = principled("principled", even(name, value)).evaluate(out, up, lobe::all);
+            EXPECT_NEAR(by_texture.r, by_number.r, 1e-4f * by_number.r) << name << ' ' << value;
+        }
+    EXPECT_NE(principled("principled", number("specular", 1)).evaluate(out, up, lobe::all),
+              principled("principled", number("specular", 0.3f)).evaluate(out, up, lobe::all));
+    const auto scene = read_mitsuba_bsdf("<bsdf type='principled'>" + even("specular", 0.5f) + "</bsdf>");
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("specular")));
+}
+
 TEST(MitsubaPrincipled, ReflectsNothingWithoutSpecular) {
     for (const auto& none : {number("specular", 0), number("eta", 1)})
         for (const float cosine : {1.0f, slanted, 0.05f}) {

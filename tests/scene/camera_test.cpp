@@ -74,6 +74,17 @@ TEST(Camera, SeesNothingBeforeItsNearestPlane) {
         }
 }
 
+TEST(Camera, SeesNothingBeyondItsFarthestPlane) {
+    CameraData data = test::camera({1, 2, 9}, {1, 2, 0}, 50);
+    data.nearest = 2, data.farthest = 5;
+    for (const bool parallel : {false, true}) {
+        if (parallel) data.projection = Orthographic{};
+        const Ray ray = Camera(data, 8, 4).ray(1, 3);
+        EXPECT_NEAR(ray.origin.z, 7, 1e-5f);
+        EXPECT_NEAR((ray.origin + ray.direction * ray.far).z, 4, 1e-5f);
+    }
+}
+
 TEST(Camera, GivesManyRaysAsItGivesOne) {
     for (const float lens_radius : {0.0f, 0.1f}) {
         CameraData data = test::camera({1, 2, 3}, {0, 1, 0}, 50);

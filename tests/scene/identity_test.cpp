@@ -48,7 +48,7 @@ std::vector<Material> all_materials() {
     add(MixtureMaterial{0, 1, 1});
     add(TwoFacedMaterial{0, 1});
     add(NoMaterial{});
-    add(BurleyMaterial{1, 1, 1, 1, rough(), 1, 1, 1, 1, 1, 1, 1, true, true});
+    add(BurleyMaterial{1, 1, 1, 1, rough(), 1, 1, 1, 1, 1, 1, 1, true, true, 1, 1});
     add(MeasuredMaterial{measured(1)});
     return materials;
 }
@@ -66,7 +66,8 @@ std::vector<Texture> all_textures() {
             {{1, 1, 1}, DirectionTexture{0, 1, {0, 0, 1}}, false},
             {{1, 1, 1}, NoiseTexture{}, false},
             {{1, 1, 1}, MarbleTexture{}, false},
-            {{1, 1, 1}, SecondUvTexture{1}, false}};
+            {{1, 1, 1}, OtherUvTexture{1}, false},
+            {{1, 1, 1}, VertexAlpha{}, false}};
 }
 
 SceneData room() {
@@ -77,7 +78,8 @@ SceneData room() {
                     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                     {{0, 1, 2}},
                     false,
-                    {{0, 1}, {1, 1}, {0, 0}}};
+                    {{{{0, 1}, {1, 1}, {0, 0}}}, {1, 1, 0.5f}},
+                    {{{1, 0, 0}, 1}, {{1, 0, 0}, -1}, {{0, 1, 0}, 1}}};
     scene.shapes.push_back({mesh, 1, AreaEmission{{1, 2, 3}, false, TextureId{1}}, {"room.pbrt", 7}, "lamp"});
     scene.shapes.push_back({Sphere{{1, 2, 3}, 2, false, {}}, 0, {}, {"room.pbrt", 8}, "ball"});
     scene.objects.push_back({"chair", {1}});

@@ -74,11 +74,12 @@ inline TextureId squares(SceneData& data, Rgb one, Rgb other) {
 
 // Laid on second texture coordinates.
 inline void add_second(SceneData& data, TextureId pattern) {
-    data.textures.emplace_back().pattern = SecondUvTexture{pattern};
+    data.textures.emplace_back().pattern = OtherUvTexture{pattern};
     Mesh mesh = waves();
+    mesh.values.uvs.resize(1);
     for (Vec3& p : mesh.positions) {
         mesh.uvs.push_back({0.5f, 0.5f});
-        mesh.second_uvs.push_back({p.x / 4, p.y / 3});
+        mesh.values.uvs[0].push_back({p.x / 4, p.y / 3});
         p.x -= 3.5f;
     }
     add(data, mesh, material(data, DiffuseMaterial{TextureId(data.textures.size() - 1)}));

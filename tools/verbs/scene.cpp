@@ -65,6 +65,7 @@ void print_names(const SceneData& scene, std::ostream& out) {
         line(out, "camera " + std::to_string(i + 1), scene.cameras[i].name);
     for (const auto& [name, seconds] : scene.animations)
         line(out, "animation", fmt::format("{}{}{:.4g} s", name, name.empty() ? "" : ", ", seconds));
+    for (const auto& [name, shown] : scene.variants) line(out, "variant", name + (shown ? " (shown)" : ""));
     for (const auto& lamp : lamps_of(scene)) {
         const std::vector<std::string> others(lamp.names.begin() + 1, lamp.names.end());
         line(out, "lamp",

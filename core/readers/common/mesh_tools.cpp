@@ -95,6 +95,8 @@ bool transform(Mesh& mesh, const Matrix& to_world) {
         good = good && finite(p);
     }
     for (auto& n : mesh.normals) n = normal(n);
+    const float hand = swaps_handedness(to_world) ? -1 : 1;
+    for (auto& t : mesh.tangents) t = {unit_or_zero(transform_direction(to_world, t.along)), t.hand * hand};
     return good;
 }
 

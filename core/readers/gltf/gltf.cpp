@@ -51,14 +51,15 @@ void check_extensions(const At& root) {
                 fmt::format("the file needs the extension '{}', which is not supported", name.substr(0, 64)));
     for (std::size_t i = 0; i < used.size(); ++i)
         if (const auto name = used[i].text(""); !known_extensions.contains(name) && !required.contains(name))
-            root.warn(fmt::format("extension '{}' is left out", name.substr(0, 64)));
+            root.warn(fmt::format("extension '{}' is left out: the picture shows nothing of it", name.substr(0, 64)));
 }
 
-void check_occlusion(const At& root) {
-    const At materials = root["materials"];
-    for (std::size_t i = 0; i < materials.size(); ++i)
-        if (materials[i]["occlusionTexture"])
-            root.warn("occlusion maps are left out: light finds by itself where it is dark");
+/// All may be hidden, or have gone where no camera looks: a file that has one means that.
+void nothing_stands(const SceneData& scene, Report& report, const std::string& path) {
+    if (scene.camera_given)
+        report.warn({path, 0}, "there are no triangles: nothing is seen but what is around the scene");
+    else
+        report.error({path, 0}, "there are no triangles");
 }
 
 /// What is wanted of a file.
@@ -90,7 +91,6 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
         Document document(assets, path);
         check_extensions(document.root());
         report.check();  // what is packed in unknown ways would only give more errors
-        check_occlusion(document.root());
         scene.animations = animations_of(document);
         if (!scene.animations.empty() && !moment.seconds && !moment.animation)
             report.warn({path, 0},
@@ -100,7 +100,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
         move_to(moment, document);
         add_nodes(document, assets, variant);
         document.warn_of_unread();
-        if (scene.shapes.empty() && report.good()) report.error({path, 0}, "there are no triangles");
+        if (scene.shapes.empty() && report.good()) nothing_stands(scene, report, path);
         if (std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); }) &&
             scene.environments.empty() && scene.lights.empty())
             report.warn({path, 0},

@@ -56,6 +56,7 @@ Materials::Materials(Document& document, Assets& assets, const std::string& vari
     const At list = document.root()["extensions"]["KHR_materials_variants"]["variants"];
     std::vector<std::string> names;
     for (std::size_t i = 0; i < list.size(); ++i) names.push_back(list[i]["name"].text(""));
+    for (const auto& name : names) assets.scene().variants.push_back({name, name == variant});
     if (variant.empty()) return;
     const auto found = std::ranges::find(names, variant);
     if (found != names.end())
@@ -78,7 +79,7 @@ At Materials::index_of(const At& primitive) const {
     return primitive["material"];
 }
 
-const Surface& Materials::of(const At& primitive, bool painted) {
+const Surface& Materials::of(const At& primitive, Painted painted) {
     const At index = index_of(primitive);
     const At list = document_.root()["materials"];
     const auto which = index.index(list.size());
@@ -88,7 +89,7 @@ const Surface& Materials::of(const At& primitive, bool painted) {
     lay(at);
     Surface surface = make(at, painted);
     surface.turned = turned_;
-    surface.uv_set = uv_set_, surface.second_uv_set = second_uv_set_;
+    surface.uv_sets = uv_sets_;
     return made_.emplace(key, surface).first->second;
 }
 
@@ -119,7 +120,7 @@ std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
              basis = at["extensions"]["KHR_texture_basisu"]["source"];
     const At& source = webp ? webp : plain ? plain : basis;
     if (!source) {
-        at.warn("a texture without an image of a known format is left out");
+        at.warn("a texture without an image of a known format is left out: its factor alone counts");
         return std::nullopt;
     }
     ImageTexture pattern;
@@ -136,22 +137,21 @@ std::optional<ImageTexture> Materials::picture(const At& info, Kind kind) {
 
 /// The main texture coordinates are those of what is turned along them.
 void Materials::lay(const At& material) {
-    uv_set_.reset(), second_uv_set_.reset();
+    uv_sets_.clear();
     const At more = material["extensions"];
     for (const At& map : {material["normalTexture"], more["KHR_materials_clearcoat"]["clearcoatNormalTexture"],
                           more["KHR_materials_anisotropy"]["anisotropyTexture"]})
-        if (map && !uv_set_) uv_set_ = set_of(map);
-    turned_ = uv_set_.has_value();
+        if (map && uv_sets_.empty()) uv_sets_.push_back(set_of(map));
+    turned_ = !uv_sets_.empty() || more["KHR_materials_anisotropy"]["anisotropyStrength"];
 }
 
-bool Materials::is_on_second(const At& info) {
+/// Among those of the material: 0 are the main ones.
+std::size_t Materials::place_of_set(const At& info) {
     const std::size_t set = set_of(info);
-    if (!uv_set_) uv_set_ = set;
-    if (*uv_set_ == set) return false;
-    if (!second_uv_set_) second_uv_set_ = set;
-    if (*second_uv_set_ == set) return true;
-    info.warn("images of one material on more than two sets of texture coordinates are laid on the main ones");
-    return false;
+    const auto found = std::ranges::find(uv_sets_, set);
+    const auto place = static_cast<std::size_t>(found - uv_sets_.begin());
+    if (found == uv_sets_.end()) uv_sets_.push_back(set);
+    return place;
 }
 
 std::optional<TextureId> Materials::texture(const At& info, Kind kind, Rgb scale, Channel channel) {
@@ -159,7 +159,8 @@ std::optional<TextureId> Materials::texture(const At& info, Kind kind, Rgb scale
     if (!pattern) return std::nullopt;
     pattern->channel = channel;
     const TextureId map = assets_.add({scale, *pattern, false});
-    return is_on_second(info) ? assets_.add({{1, 1, 1}, SecondUvTexture{map}, false}) : map;
+    const std::size_t place = place_of_set(info);
+    return place ? assets_.add({{1, 1, 1}, OtherUvTexture{map, std::uint32_t(place - 1)}, false}) : map;
 }
 
 /// The colour of a surface: factor × image × the colours of the mesh.
@@ -266,12 +267,16 @@ void Materials::extensions(const At& at, PrincipledMaterial& model, Material& ma
     shine(at, model);
 }
 
-void Materials::opacity(const At& at, const At& base, float factor, Material& material) {
+void Materials::opacity(const At& at, const At& base, float factor, bool by_vertices, Material& material) {
     const std::string mode = at["alphaMode"].text("OPAQUE");
     if (mode == "OPAQUE") return;
     if (mode != "MASK" && mode != "BLEND") return at["alphaMode"].error("must be OPAQUE, MASK or BLEND");
     const auto map = texture(base, Kind::colour, {factor, factor, factor}, Channel::alpha);
     material.opacity = map ? *map : assets_.grey(factor);
+    if (by_vertices) {
+        const TextureId own = assets_.add({{1, 1, 1}, VertexAlpha{}, false});
+        material.opacity = assets_.add({{1, 1, 1}, ProductTexture{*material.opacity, own}, false});
+    }
     if (mode == "MASK") material.opacity_cutoff = std::max(at["alphaCutoff"].real(0.5f), 1e-6f);
 }
 
@@ -283,18 +288,21 @@ void Materials::emission(const At& at, Surface& surface) {
     surface.emission = AreaEmission{radiance, two_sided, texture(at["emissiveTexture"], Kind::colour, {1, 1, 1})};
 }
 
-Surface Materials::make(const At& at, bool painted) {
+Surface Materials::make(const At& at, Painted painted) {
     Surface surface;
     Material material;
     material.name = at["name"].text("");
+    if (at["occlusionTexture"]) at.warn("occlusion maps are left out: light finds by itself where it is dark");
     const At more = at["extensions"];
-    PrincipledMaterial model = this->model(at, painted);
+    PrincipledMaterial model = this->model(at, painted.colours);
     const At gloss = more["KHR_materials_pbrSpecularGlossiness"];
     const At rough = at["pbrMetallicRoughness"];
     extensions(more, model, material);
-    if (gloss) older(gloss, model, painted);
+    if (gloss) older(gloss, model, painted.colours);
     opacity(at, gloss ? gloss["diffuseTexture"] : rough["baseColorTexture"],
-            float((gloss ? gloss["diffuseFactor"] : rough["baseColorFactor"]).numbers<4>({1, 1, 1, 1})[3]), material);
+            float((gloss ? gloss["diffuseFactor"] : rough["baseColorFactor"]).numbers<4>({1, 1, 1, 1})[3]),
+            painted.alphas, material);
+    surface.fades = painted.alphas && material.opacity;
     emission(at, surface);
     if (more["KHR_materials_unlit"]) {
         at.warn("KHR_materials_unlit is approximated by a surface that shines in its colour");

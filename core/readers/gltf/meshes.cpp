@@ -53,6 +53,7 @@ public:
         if (!moved_.weights.empty())
             for (Vec3& n : mesh_.normals) n = length_squared(n) > 0 ? normalize(n) : n;
         colours();
+        tangents();
         if (!corners(mode) || !sound()) return std::nullopt;
         if (moved_.skin && !hang()) return std::nullopt;
         return std::move(mesh_);
@@ -150,6 +151,24 @@ private:
         for (std::size_t i = 0; i < values->count(); ++i) {
             const float* v = &values->numbers[i * values->width];
             mesh_.colours.push_back({v[0], v[1], v[2]});
+            if (values->width > 3) mesh_.values.alphas.push_back(v[3]);
+        }
+        const auto whole = [](float alpha) { return alpha == 1; };
+        if (std::ranges::all_of(mesh_.values.alphas, whole)) mesh_.values.alphas.clear();
+    }
+
+    /// glTF's y axis is against v, as ours is along what v goes up by.
+    void tangents() {
+        if (mesh_.normals.empty()) return;  // then they have no effect
+        const auto values = attribute("TANGENT");
+        if (!values) return;
+        if (values->width != 4 || values->count() != mesh_.positions.size())
+            return at_.warn(
+                "tangents that are not four numbers for each vertex are left out: normal maps and grooves "
+                "lie along the texture coordinates");
+        for (std::size_t i = 0; i < values->count(); ++i) {
+            const float* v = &values->numbers[i * 4];
+            mesh_.tangents.push_back({{v[0], v[1], v[2]}, v[3] < 0 ? -1.0f : 1.0f});
         }
     }
 
@@ -203,12 +222,18 @@ std::vector<Primitive> read_mesh(const At& at, const Moved& moved, Document& doc
         Reader reader(primitive, moved, document);
         auto mesh = reader.read();
         if (!mesh) continue;
-        const Surface& surface = materials.of(primitive, !mesh->colours.empty());
-        mesh->uvs = reader.uvs(surface.uv_set.value_or(0));
-        if (surface.second_uv_set) mesh->second_uvs = reader.uvs(*surface.second_uv_set);
-        if (surface.turned && primitive["attributes"]["TANGENT"])
-            primitive.warn("tangents are left out: normal maps and grooves lie along the texture coordinates");
-        if ((surface.uv_set && mesh->uvs.empty()) || (surface.second_uv_set && mesh->second_uvs.empty()))
+        const Surface& surface = materials.of(primitive, {!mesh->colours.empty(), !mesh->values.alphas.empty()});
+        const auto& sets = surface.uv_sets;
+        mesh->uvs = reader.uvs(sets.empty() ? 0 : sets[0]);
+        bool lacks = !sets.empty() && mesh->uvs.empty();
+        for (std::size_t other = 1; other < sets.size(); ++other) {
+            auto& uvs = mesh->values.uvs.emplace_back(reader.uvs(sets[other]));
+            lacks |= uvs.empty();
+            uvs.resize(mesh->positions.size());
+        }
+        if (!surface.turned) mesh->tangents.clear();
+        if (!surface.fades) mesh->values.alphas.clear();
+        if (lacks)
             primitive.warn("a mesh lacks the texture coordinates that its material asks for: its images lie anyhow");
         if (!mesh->normals.empty()) order_by_normals(*mesh);  // without any, glTF wants flat ones
         found.push_back({*std::move(mesh), surface.material, surface.emission});

@@ -170,6 +170,11 @@ bool hang_on(const Skin& skin, const At& attributes, const Attribute& attribute,
         }
         if (!mesh.normals.empty()) mesh.normals[i] = moved_normal(mesh.normals[i], *to_world);
         mirrored[i] = swaps_handedness(*to_world);
+        if (!mesh.tangents.empty()) {
+            auto& [along, hand] = mesh.tangents[i];
+            along = transform_direction(*to_world, along);
+            if (mirrored[i]) hand = -hand;
+        }
     }
     // so that what a mirroring joint holds keeps its outside; where there are normals they say so later
     for (auto& t : mesh.triangles)

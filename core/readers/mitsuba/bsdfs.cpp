@@ -23,6 +23,12 @@ Material one_sided(Model model) {
     return material;
 }
 
+/// The texture of a number. None: it has none.
+std::optional<TextureId> varying(Textures& textures, Properties& properties, std::string_view name) {
+    const Node* given = properties.find(name);
+    return given && !is_colour(*given) ? std::optional(textures.of(*given)) : std::nullopt;
+}
+
 }  // namespace
 
 const std::map<std::string, Bsdfs::Maker, std::less<>>& Bsdfs::makers() {
@@ -179,7 +185,8 @@ Material Bsdfs::rough_dielectric(Properties& properties) {
 /// Without a material and an index it is copper in Mitsuba 0, and the perfect mirror since then.
 ConductorMaterial Bsdfs::metal(Properties& properties) {
     ConductorMaterial model;
-    const std::string name = properties.text("material", context_.document.version == 0 ? "Cu" : "none");
+    std::string name = properties.text("material", context_.document.version == 0 ? "Cu" : "none");
+    if (same_but_for_case(name, "none")) name = "none";
     const float outside = index_of(properties, "ext_eta", "vacuum");
     model.tint = textures_.maybe(properties, "specular_reflectance");
     const bool by_index = properties.has("eta") || properties.has("k");
@@ -260,8 +267,8 @@ float Bsdfs::mean_of(Properties& properties, std::string_view name, float fallba
 }
 
 /// Burley 2012: α = roughness², stretched by √(1 - 0.9 anisotropic).
-Roughness Bsdfs::burley_roughness(Properties& properties) {
-    const float anisotropic = std::clamp(mean_of(properties, "anisotropic", 0), 0.0f, 1.0f);
+Roughness Bsdfs::burley_roughness(Properties& properties, bool varies) {
+    const float anisotropic = varies ? 0 : std::clamp(properties.number("anisotropic", 0), 0.0f, 1.0f);
     const float aspect = std::sqrt(std::sqrt(1 - 0.9f * anisotropic));
     Roughness rough{1, 1, {}, Roughness::Means::square, {FacetLaw::Normals::ggx, FacetLaw::Masking::independent}};
     const Node* given = properties.find("roughness");
@@ -278,7 +285,8 @@ BurleyMaterial Bsdfs::burley(Properties& properties) {
     const auto get = [&](const char* name) { return textures_.get(properties, name, 0.0f); };
     model.base_colour = textures_.get(properties, "base_color", 0.5f);
     model.transmission = get("spec_trans"), model.tint = get("spec_tint");
-    model.roughness = burley_roughness(properties);
+    model.anisotropic = varying(textures_, properties, "anisotropic");
+    model.roughness = burley_roughness(properties, model.anisotropic.has_value());
     model.flatness = get("flatness"), model.sheen = get("sheen"), model.sheen_tint = get("sheen_tint");
     model.metallic = model.coat = model.gloss = model.through = context_.assets.grey(0);
     properties.ignore({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
@@ -302,10 +310,10 @@ Material Bsdfs::principled(Properties& properties) {
     if (properties.has("eta")) {
         eta = index_of(properties, "eta", "bk7");
         if (eta < 1) context_.warn(properties.node(), "an 'eta' below 1 is taken as 1");
-    } else {
-        float specular = std::clamp(mean_of(properties, "specular", 0.5f), 0.0f, 1.0f);
+    } else if (model.specular = varying(textures_, properties, "specular"); !model.specular) {
+        float specular = std::clamp(properties.number("specular", 0.5f), 0.0f, 1.0f);
         if (model.lets_through && specular == 0) specular = 1e-3f;  // as in Mitsuba
-        eta = 2 / (1 - std::sqrt(0.08f * specular)) - 1;
+        eta = eta_of_specular(specular);
     }
     model.eta = context_.assets.grey(std::max(eta, model.lets_through ? 1.001f : 1.0f));
     Material material{"", model};

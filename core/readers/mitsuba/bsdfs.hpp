@@ -58,7 +58,7 @@ private:
     Material glass(Properties& properties, const Roughness& roughness, bool thin);
     CoatedDiffuseMaterial coat(Properties& properties);
     BurleyMaterial burley(Properties& properties);
-    Roughness burley_roughness(Properties& properties);
+    Roughness burley_roughness(Properties& properties, bool varies);
     float mean_of(Properties& properties, std::string_view name, float fallback);
     bool may_be_above_zero(TextureId texture) const;
     Material highlight(Properties& properties, Roughness roughness);

@@ -113,7 +113,7 @@ Material Bsdfs::coating(Properties& properties) {
     const float eta = index_of(properties, "int_ior", "bk7") / index_of(properties, "ext_ior", "air");
     const Roughness rough = properties.node().type == "roughcoating" ? roughness(properties, 0.1f) : Roughness{};
     if (properties.has("sigma_a") && !is_black(surface_of(properties, "sigma_a", {}).rgb))
-        context_.warn(properties.node(), "the colour of a coat ('sigma_a') is left out");
+        context_.warn(properties.node(), "the colour of a coat ('sigma_a') is left out: it is clear");
     properties.ignore({"thickness"});
     if (inner.empty()) return grey();
     Material material = copy_of(of(*inner[0]));
@@ -122,7 +122,9 @@ Material Bsdfs::coating(Properties& properties) {
     } else if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) {
         material.model = CoatedConductorMaterial{metal->metal, metal->roughness, eta, rough};
     } else {
-        context_.warn(properties.node(), "a coat over anything but a metal or a diffuse surface is left out");
+        context_.warn(
+            properties.node(),
+            "a coat over anything but a metal or a diffuse surface is left out: what is below it is seen bare");
     }
     return material;
 }

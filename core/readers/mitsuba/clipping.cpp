@@ -1,7 +1,5 @@
 #include "core/readers/mitsuba/clipping.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -68,11 +66,7 @@ void clip(CameraData& camera, float nearest, float farthest, const Context& cont
         cut |= low < nearest && high > 0 && length(across) < aside + length(half);
     });
     camera.nearest = cut ? nearest : 0;
-    if (far)
-        context.report().warn(camera.where,
-                              fmt::format("'far_clip' cuts nothing away: what is farther than {} is seen, "
-                                          "which Mitsuba leaves out",
-                                          farthest));
+    if (far && farthest > nearest) camera.farthest = farthest;
 }
 
 }  // namespace lightnet::mitsuba

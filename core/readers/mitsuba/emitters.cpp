@@ -256,7 +256,7 @@ void add_emitter(const Node& node, Textures& textures) {
     }
     if (node.type == "area") {
         properties.ignore_all();
-        context.warn(node, "emitter 'area' belongs to no shape and is left out");
+        context.warn(node, "emitter 'area' belongs to no shape and is left out: it is dark");
         return;
     }
     properties.ignore({"sampling_weight"});

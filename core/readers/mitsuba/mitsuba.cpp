@@ -30,6 +30,7 @@ public:
     void add(const Node& node) {
         static const std::set<std::string, std::less<>> silent{"integrator", "sampler", "film", "rfilter",
                                                                "bsdf",       "texture", "mode", "phase"};
+        if (node.tag == "integrator") name_hidden(node);
         if (node.tag == "shape") return shapes_.add(node);
         if (node.tag == "emitter") return add_emitter(node, textures_);
         if (node.tag == "sensor") return sensor(node);
@@ -48,7 +49,9 @@ public:
         SceneData& scene = context_.assets.scene();
         for (std::size_t i = 0; i < depths_.size(); ++i)
             clip(scene.cameras[i].camera, depths_[i].nearest, depths_[i].farthest, context_);
-        if (!depths_.empty()) scene.camera.nearest = scene.cameras[0].camera.nearest;
+        if (depths_.empty()) return;
+        scene.camera.nearest = scene.cameras[0].camera.nearest;
+        scene.camera.farthest = scene.cameras[0].camera.farthest;
     }
 
     /// What is wrong with a scene that has no shapes.
@@ -79,9 +82,18 @@ private:
         if (target && target->tag != "ref" && target->tag != "shape") add(*target);
     }
 
+    /// Integrators may be inside of others.
+    void name_hidden(const Node& integrator) {
+        for (const auto& child : integrator.children)
+            if (child->tag == "integrator")
+                name_hidden(*child);
+            else if (child->name == "hide_emitters" && child->attribute("value") == "true")
+                context_.warn(*child, "'hide_emitters' is left out: the camera sees lamps and what is around");
+    }
+
     void unknown(const Node& node) {
         if (first_unknown_.empty()) first_unknown_ = node.tag;
-        context_.warn(node, fmt::format("unknown element <{}> is left out", node.tag));
+        context_.warn(node, fmt::format("unknown element <{}> is left out: the picture shows nothing of it", node.tag));
     }
 
     const Context& context_;
@@ -115,7 +127,9 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& give
         for (const auto& node : document->scene.children)
             if (!report.full()) builder.add(*node);
         if (report.good()) builder.finish();
-        if (scene.shapes.empty() && report.good()) report.error({path, 0}, builder.why_empty());
+        // a sky may be all there is to see
+        if (scene.shapes.empty() && report.good() && (scene.environments.empty() || !scene.camera_given))
+            report.error({path, 0}, builder.why_empty());
     });
 }
 

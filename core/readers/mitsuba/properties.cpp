@@ -80,22 +80,31 @@ Properties::~Properties() {
     for (const auto& child : node_.children) {
         if (asked_.contains(child.get())) continue;
         if (objects.contains(child->tag))
-            context_.warn(*child, fmt::format("<{}> is left out of {}", child->tag, owner()));
+            context_.warn(*child,
+                          fmt::format("<{}> is left out of {}: the picture shows nothing of it", child->tag, owner()));
         else if (child->tag == "ref" || child->tag == "bsdf" || child->tag == "texture" || child->name.empty())
             context_.warn(*child,
-                          fmt::format("<{}{}> is left out of {}", child->tag,
+                          fmt::format("<{}{}> is left out of {}: the picture shows nothing of it", child->tag,
                                       child->name.empty() ? "" : fmt::format(" name=\"{}\"", child->name), owner()));
         else
-            context_.warn(*child, fmt::format("parameter '{}' of {} is left out", child->name, owner()));
+            context_.warn(*child, fmt::format("parameter '{}' of {} is left out: the picture shows nothing of it",
+                                              child->name, owner()));
     }
 }
 
 std::string Properties::owner() const { return fmt::format("{} '{}'", node_.tag, node_.type); }
 
 const Node* Properties::find(std::string_view name) {
-    for (const auto& child : node_.children)
-        if (child->name == name) return asked_.insert(child.get()), child.get();
-    return nullptr;
+    const Node* last = nullptr;
+    bool twice = false;
+    for (const auto& child : node_.children) {
+        if (child->name != name) continue;
+        twice = asked_.insert(child.get()).second && last;
+        last = child.get();
+    }
+    if (twice)
+        context_.warn(*last, fmt::format("parameter '{}' of {} is given twice: the last one holds", name, owner()));
+    return last;
 }
 
 float Properties::number(std::string_view name, float fallback) {

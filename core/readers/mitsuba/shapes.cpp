@@ -65,7 +65,7 @@ std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
     MaterialId material = this->material(properties, emission.has_value());
     const auto media = absorb(properties, material) ? std::nullopt : media_.sides(properties);
     if (emission && in_group) {
-        context_.warn(node, "lamps inside of a shapegroup are left out");
+        context_.warn(node, "lamps inside of a shapegroup are left out: they are dark");
         emission.reset();
     }
     if (!geometry) return std::nullopt;
@@ -279,7 +279,7 @@ std::optional<AreaEmission> Shapes::emission(Properties& properties) {
     lamp.ignore({"sampling_weight"});
     if (given[0]->type != "area") {
         lamp.ignore_all();
-        context_.warn(*given[0], fmt::format("emitter '{}' inside of a shape is left out", given[0]->type));
+        context_.warn(*given[0], fmt::format("emitter '{}' inside of a shape is left out: it is dark", given[0]->type));
         return std::nullopt;
     }
     AreaEmission emission{{1, 1, 1}, lamp.boolean("two_sided", false), {}, {given[0]->id}};

@@ -167,7 +167,8 @@ UvTransform uv_transform(Properties& properties, bool flipped) {
     result.turn = float(std::atan2(c, a));
     if (a * d - b * c < 0) result.scale.y = -result.scale.y;
     if (std::fabs(a * b + c * d) > 1e-4 * (std::fabs(a * d) + std::fabs(b * c)))
-        properties.context().warn(properties.node(), "the shear of a to_uv transform is left out");
+        properties.context().warn(properties.node(),
+                                  "the shear of a to_uv transform is left out: textures lie straight");
     return result;
 }
 

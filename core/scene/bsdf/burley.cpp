@@ -220,6 +220,10 @@ std::optional<BsdfSample> BurleyBsdf::sample(Vec3 outgoing, float choice, Vec2 u
     return result;
 }
 
+float eta_of_specular(float specular) { return 2 / (1 - std::sqrt(0.08f * specular)) - 1; }
+
+float stretch_of(float anisotropic) { return 1 / std::sqrt(std::sqrt(1 - 0.9f * anisotropic)); }
+
 BurleyBsdf BurleyMaterial::at(const MaterialInputs& inputs) const {
     const auto share = [&](TextureId texture) { return inputs.share(1, texture); };
     BurleyBsdf model;
@@ -227,8 +231,15 @@ BurleyBsdf BurleyMaterial::at(const MaterialInputs& inputs) const {
     model.base = inputs.albedo(base_colour);
     model.transmission = share(transmission);
     model.tint = share(tint);
-    model.facets = inputs.facets(roughness);
-    model.eta = std::max(1.0f, inputs.times(1, eta));
+    Roughness stretched = roughness;
+    if (anisotropic) {
+        const float by = stretch_of(share(*anisotropic));
+        stretched.u *= by, stretched.v /= by;
+    }
+    model.facets = inputs.facets(stretched);
+    // light that passes needs some difference, as in Mitsuba
+    const float least = lets_through && !thin ? 1.001f : 1.0f;
+    model.eta = std::max(least, specular ? eta_of_specular(share(*specular)) : inputs.times(1, eta));
     const float rough = inputs.times(std::sqrt(roughness.u * roughness.v), roughness.texture);
     model.matt = {rough, share(flatness), share(sheen), share(sheen_tint), thin ? share(through) : 0};
     if (thin) {

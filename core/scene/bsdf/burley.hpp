@@ -77,6 +77,8 @@ struct BurleyMaterial {
     TextureId coat = 0, gloss = 0;  // the latter: of the coat
     TextureId through = 0;          // of what a sheet scatters, what goes to its other side
     bool thin = false, lets_through = false;
+    std::optional<TextureId> specular{};     // tells eta; none: `eta` does
+    std::optional<TextureId> anisotropic{};  // stretches `roughness` along u, beside what that says itself
 
     Transparency transparency() const {
         if (!lets_through) return Transparency::opaque;
@@ -86,9 +88,14 @@ struct BurleyMaterial {
 };
 void visit_members(Is<BurleyMaterial> auto& material, const auto& visit) {
     auto& [base_colour, metallic, transmission, tint, roughness, eta, flatness, sheen, sheen_tint, coat, gloss, through,
-           thin, lets_through] = material;
+           thin, lets_through, specular, anisotropic] = material;
     visit(base_colour, metallic, transmission, tint, roughness, eta, flatness, sheen, sheen_tint, coat, gloss, through,
-          thin, lets_through);
+          thin, lets_through, specular, anisotropic);
 }
+
+/// What a reflection of that strength (0 … 1) is that of, head-on. Burley 2015, section 3.
+float eta_of_specular(float specular);
+/// By how much α is larger along u, and smaller along v, as square roots. Burley 2012, section 5.4.
+float stretch_of(float anisotropic);
 
 }  // namespace lightnet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -22,8 +23,9 @@ struct CameraData {
     float focus_distance = 1e6f;                // metres along the axis to the plane in which everything is sharp
     SourceLine where{};                         // it stands in the files, if anywhere
     float nearest = 0;                          // metres along the axis: what lies before that is not seen
-    std::vector<CameraData> later{};            // at evenly spaced steps, the last when the shutter closes; none: it
-                                                // stands still
+    float farthest = std::numeric_limits<float>::infinity();  // the same: what lies beyond it
+    std::vector<CameraData> later{};  // at evenly spaced steps, the last when the shutter closes; none: it
+                                      // stands still
 
     bool is_orthographic() const { return std::holds_alternative<Orthographic>(projection); }
 };

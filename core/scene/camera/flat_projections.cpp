@@ -27,7 +27,7 @@ std::array<float, 4> screen_of(float width, float height) {
 double screen_distance(const CameraData& camera) { return 1 / std::tan(double{camera.fov} * std::numbers::pi / 360); }
 
 FlatScreen::FlatScreen(const CameraData& camera, Vec2 size, float depth, float corner_depth)
-    : origin(transform_point(camera.to_world, {0, 0, 0})), nearest(camera.nearest) {
+    : origin(transform_point(camera.to_world, {0, 0, 0})), nearest(camera.nearest), farthest(camera.farthest) {
     const auto [left, right_end, bottom, top] = camera.screen_given ? camera.screen : screen_of(size.x, size.y);
     corner = transform_direction(camera.to_world, {left, top, corner_depth});
     right = transform_direction(camera.to_world, {(right_end - left) / size.x, 0, 0});
@@ -43,22 +43,22 @@ Vec3 FlatScreen::aside(Vec2 lens) const {
     return lens_x * d.x + lens_y * d.y;
 }
 
-Ray FlatScreen::from_nearest(const Ray& ray) const {
-    if (!(nearest > 0)) return ray;
+Ray FlatScreen::within_sight(const Ray& ray) const {
+    if (!(nearest > 0) && !std::isfinite(farthest)) return ray;
     const float ahead = dot(ray.direction, normalize(axis));
-    return {ray.origin + ray.direction * (nearest / ahead), ray.direction, ray.far};
+    return {ray.origin + ray.direction * (nearest / ahead), ray.direction, (farthest - nearest) / ahead};
 }
 
 Perspective::View::View(const CameraData& camera, Vec2 size)
     : screen_(camera, size, float(screen_distance(camera)), float(screen_distance(camera))) {}
 
 Ray Perspective::View::ray(float x, float y) const {
-    return screen_.from_nearest({screen_.origin, normalize(screen_.at(x, y))});
+    return screen_.within_sight({screen_.origin, normalize(screen_.at(x, y))});
 }
 
 Ray Perspective::View::ray(float x, float y, Vec2 lens) const {
     const Vec3 at = screen_.at(x, y), aside = screen_.aside(lens);
-    return screen_.from_nearest({screen_.origin + aside, normalize(at * screen_.focus - aside)});
+    return screen_.within_sight({screen_.origin + aside, normalize(at * screen_.focus - aside)});
 }
 
 Vec3 Perspective::View::project(Vec3 position) const {
@@ -68,12 +68,12 @@ Vec3 Perspective::View::project(Vec3 position) const {
 Orthographic::View::View(const CameraData& camera, Vec2 size) : screen_(camera, size, 1, 0) {}
 
 Ray Orthographic::View::ray(float x, float y) const {
-    return screen_.from_nearest({screen_.origin + screen_.at(x, y), normalize(screen_.axis)});
+    return screen_.within_sight({screen_.origin + screen_.at(x, y), normalize(screen_.axis)});
 }
 
 Ray Orthographic::View::ray(float x, float y, Vec2 lens) const {
     const Vec3 at = screen_.at(x, y), aside = screen_.aside(lens);
-    return screen_.from_nearest({screen_.origin + at + aside, normalize(screen_.axis * screen_.focus - aside)});
+    return screen_.within_sight({screen_.origin + at + aside, normalize(screen_.axis * screen_.focus - aside)});
 }
 
 Vec3 Orthographic::View::project(Vec3 position) const {

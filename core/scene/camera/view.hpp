@@ -36,16 +36,16 @@ struct FlatScreen {
 
     Vec3 at(float x, float y) const { return corner + right * x + down * y; }
     Vec3 aside(Vec2 lens) const;
-    /// Its ray begins where the camera begins to see.
-    Ray from_nearest(const Ray& ray) const;
+    /// Its ray begins where the camera begins to see, and ends where it no longer does.
+    Ray within_sight(const Ray& ray) const;
 
     Vec3 origin;
-    Vec3 corner;          // from the eye to the picture's upper left corner
-    Vec3 right, down;     // per pixel
-    Vec3 axis;            // one unit long
-    Vec3 lens_x, lens_y;  // from the middle of the lens to its rim
-    float nearest = 0;    // metres along the axis to the plane where rays begin
-    float focus = 1;      // distance of the plane in focus over that of the screen
+    Vec3 corner;                              // from the eye to the picture's upper left corner
+    Vec3 right, down;                         // per pixel
+    Vec3 axis;                                // one unit long
+    Vec3 lens_x, lens_y;                      // from the middle of the lens to its rim
+    float nearest = 0, farthest = Ray().far;  // metres along the axis to the planes where rays begin and end
+    float focus = 1;                          // distance of the plane in focus over that of the screen
 };
 
 }  // namespace lightnet

@@ -113,6 +113,12 @@ struct SceneAnimation {
     double seconds = 0;  // until it has come to its end
 };
 
+/// One of the ways in which a file dresses what is in it.
+struct SceneVariant {
+    std::string name{};
+    bool shown = false;  // else the file's own materials are, or another's
+};
+
 /// Light from infinity: `radiance` (W·sr⁻¹·m⁻²), or an image times it.
 /// A rectangle in world space through which light from infinity comes, and nowhere else: a window. Towards that light
 /// it is crossed along side × other.
@@ -272,11 +278,12 @@ struct SceneData {
     Onlooker as_read{};                        // as the file has it, where a graph changes what the scene says
     std::vector<SceneAnimation> animations{};  // that the file holds, whether or not it was read at some time of one
     SceneMotion motion{};                      // while the shutter is open
+    std::vector<SceneVariant> variants{};      // that the file has
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
     auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, media,
-           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion] = scene;
+           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion, variants] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights, media, around);
     if (!motion.empty()) visit(motion);  // what stands still is what it was before there was any
 }

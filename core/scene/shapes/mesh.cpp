@@ -20,8 +20,10 @@ std::string Mesh::fault() const {
     for (const auto& [a, b, c] : triangles) last = std::max({last, a, b, c});
     if (!triangles.empty() && last >= vertices) return "a triangle names a vertex that isn't there";
     const auto fits = [&](std::size_t count) { return count == 0 || count == vertices; };
-    if (!fits(normals.size()) || !fits(uvs.size()) || !fits(second_uvs.size()) || !fits(colours.size()))
-        return "normals, texture coordinates or colours don't match the vertices";
+    bool all = fits(normals.size()) && fits(uvs.size()) && fits(colours.size()) && fits(values.alphas.size()) &&
+               fits(tangents.size());
+    for (const auto& set : values.uvs) all = all && set.size() == vertices;
+    if (!all) return "normals, texture coordinates, colours or tangents don't match the vertices";
     return "";
 }
 
@@ -56,8 +58,10 @@ double Mesh::area() const {
 }
 
 std::size_t Mesh::memory() const {
-    return bytes_of(positions) + bytes_of(normals) + bytes_of(uvs) + bytes_of(second_uvs) + bytes_of(colours) +
-           bytes_of(triangles);
+    std::size_t bytes = bytes_of(positions) + bytes_of(normals) + bytes_of(uvs) + bytes_of(colours) +
+                        bytes_of(triangles) + bytes_of(values.alphas) + bytes_of(tangents);
+    for (const auto& set : values.uvs) bytes += bytes_of(set);
+    return bytes;
 }
 
 }  // namespace lightnet

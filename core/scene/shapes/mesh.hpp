@@ -12,8 +12,19 @@
 #include "core/base/math/transform.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/textures/members.hpp"
+#include "core/scene/textures/vertex_values.hpp"
 
 namespace lightnet {
+
+/// Where the x axis of normal maps and grooves points at a vertex.
+struct Tangent {
+    Vec3 along;      // unit
+    float hand = 1;  // their y axis is cross(normal, along) times this: 1 or -1
+};
+void visit_members(Is<Tangent> auto& tangent, const auto& visit) {
+    auto& [along, hand] = tangent;
+    visit(along, hand);
+}
 
 /// A shape: see IsShape for what its functions say. A point of it is named by its triangle and the weights of the
 /// triangle's second and third corner.
@@ -23,9 +34,10 @@ struct Mesh {
     std::vector<Vec2> uvs;        // per vertex, or empty
     std::vector<Rgb> colours;     // per vertex, linear, or empty
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    bool flip_normals = false;       // geometric normal against the order of vertices; with shading normals
-                                     // a reader orders them so that both lie on the same side
-    std::vector<Vec2> second_uvs{};  // per vertex, or empty: see SecondUvTexture
+    bool flip_normals = false;  // geometric normal against the order of vertices; with shading normals
+                                // a reader orders them so that both lie on the same side
+    VertexValues values{};
+    std::vector<Tangent> tangents{};  // per vertex, or empty: then textures are laid along their coordinates
 
     static constexpr const char* names = "meshes";
     static constexpr const char* part = "a vertex";
@@ -39,8 +51,8 @@ struct Mesh {
     const Mesh* placed() const { return this; }
 };
 void visit_members(Is<Mesh> auto& mesh, const auto& visit) {
-    auto& [positions, normals, uvs, colours, triangles, flip_normals, second_uvs] = mesh;
-    visit(positions, normals, uvs, colours, triangles, flip_normals, second_uvs);
+    auto& [positions, normals, uvs, colours, triangles, flip_normals, values, tangents] = mesh;
+    visit(positions, normals, uvs, colours, triangles, flip_normals, values, tangents);
 }
 
 }  // namespace lightnet

@@ -25,6 +25,8 @@ const PrincipledCoatNormal* own_coat(const Material& material) {
 bool anisotropic(const Material& material) {
     bool found = false;
     visit_each<Roughness>(material, [&](const Roughness& roughness) { found |= roughness.u != roughness.v; });
+    const auto* burley = std::get_if<BurleyMaterial>(&material.model);
+    found |= burley && burley->anisotropic;
     const auto* measured = std::get_if<MeasuredMaterial>(&material.model);
     found |= measured && measured->measured && !measured->measured->isotropic();
     return found || turned_grooves(material);
@@ -43,7 +45,7 @@ Bsdf::Model as_model(const std::variant<Models...>& model) {
 void add_pictures(const SceneData& data, TextureId id, std::vector<const ImageTexture*>& to) {
     const Texture& texture = data.textures[id];
     if (std::holds_alternative<ProjectedTexture>(texture.pattern) ||
-        std::holds_alternative<SecondUvTexture>(texture.pattern))
+        std::holds_alternative<OtherUvTexture>(texture.pattern))
         return;
     if (const auto* picture = std::get_if<ImageTexture>(&texture.pattern)) to.push_back(picture);
     for (const TextureId input : inputs_of(texture)) add_pictures(data, input, to);

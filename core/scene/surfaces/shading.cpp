@@ -75,11 +75,12 @@ Vec3 axis_of(const Sphere& sphere, std::size_t i) {
     return normalize({float(m[0][i]), float(m[1][i]), float(m[2][i])});
 }
 
-// Of a place on a mesh that may have none.
-Vec2 second_uv_at(const Mesh& mesh, std::uint32_t triangle, float u, float v) {
-    if (mesh.second_uvs.empty()) return {};
+// By the mesh's own tangents; z: the shading normal.
+Along along_tangents(const Mesh& mesh, std::uint32_t triangle, Vec2 at, Vec3 z) {
     const auto [i, j, k] = mesh.triangles[triangle];
-    return mesh.second_uvs[i] * (1 - u - v) + mesh.second_uvs[j] * u + mesh.second_uvs[k] * v;
+    const auto &a = mesh.tangents[i], &b = mesh.tangents[j], &c = mesh.tangents[k];
+    const Vec3 u = between_corners({a.along, b.along, c.along}, at.x, at.y);
+    return {u, cross(z, u) * a.hand};
 }
 
 // By longitude and latitude, from pole to pole.
@@ -103,7 +104,7 @@ TexturePlace coordinates_on(const Mesh* mesh, std::uint32_t primitive, Vec2 at) 
     const auto [a, b, c] = uvs_of(*mesh, primitive);
     const float u = at.x, v = at.y, w = 1 - u - v;
     TexturePlace place{a * w + b * u + c * v, {1, 1, 1}};
-    place.second_uv = second_uv_at(*mesh, primitive, u, v);
+    if (!mesh->values.empty()) place.vertices = between_vertices(*mesh, primitive, u, v);
     if (mesh->colours.empty()) return place;
     const auto [i, j, k] = mesh->triangles[primitive];
     place.vertex_colour = mesh->colours[i] * w + mesh->colours[j] * u + mesh->colours[k] * v;
@@ -125,6 +126,10 @@ TexturePlace coordinates_on(const Curves* curves, std::uint32_t primitive, Vec2 
 }
 
 }  // namespace
+
+BetweenVertices between_vertices(const Mesh& mesh, std::uint32_t triangle, float u, float v) {
+    return {&mesh.values, mesh.triangles[triangle], u, v};
+}
 
 Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
     for (const auto& instance : data.instances) placements_.emplace_back(instance.to_world);
@@ -208,6 +213,7 @@ void Shading::find(std::uint32_t geometry, std::uint32_t primitive, float u, flo
     point.primitive = primitive;
     point.u = u;
     point.v = v;
+    point.mesh = nullptr;
     const Needs& needs = needs_[geometry];
     if (needs.moving != none) return find_moving(moving_[needs.moving], needs, point);
     if (needs.mesh) return find_on(needs.mesh, needs, point);  // first, as nearly all are
@@ -275,14 +281,15 @@ void Shading::dress(const Mesh& mesh, const Corners& at, const Needs& needs, Sur
     const auto [a, b, c] = uvs_of(mesh, point.primitive);
     const float u = point.u, v = point.v, w = 1 - u - v;
     point.uv = a * w + b * u + c * v;
-    point.second_uv = second_uv_at(mesh, point.primitive, u, v);
+    if (!mesh.values.empty()) point.mesh = &mesh;
     point.vertex_colour = {1, 1, 1};
     if (!mesh.colours.empty()) {
         const auto [i, j, k] = mesh.triangles[point.primitive];
         point.vertex_colour = mesh.colours[i] * w + mesh.colours[j] * u + mesh.colours[k] * v;
     }
     if (!tangent) return;
-    const auto along = along_triangle(at, a, b, c);
+    const auto along = mesh.tangents.empty() ? along_triangle(at, a, b, c)
+                                             : along_tangents(mesh, point.primitive, {u, v}, point.shading.z);
     point.along_u = along.u;
     point.along_v = along.v;
     if (grooves) point.shading = frame_along(point.shading.z, along.u);

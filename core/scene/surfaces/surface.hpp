@@ -13,6 +13,8 @@
 
 namespace lightnet {
 
+struct Mesh;
+
 /// Derived from a Hit or a Query alone, so it's the same on every host. What no texture, groove or bump of the shape
 /// needs is left as it is here. A point in a medium has a position alone, and `primitive` is the index of its medium.
 struct SurfacePoint {
@@ -20,7 +22,7 @@ struct SurfacePoint {
     Vec3 normal;                 // geometric, unit; the side on which a one-sided lamp shines
     Frame shading;               // z: shading normal, on the side of `normal`
     Vec2 uv;                     // texture coordinates
-    Vec2 second_uv{};            // of meshes that have two sets of them
+    const Mesh* mesh = nullptr;  // whose vertices know more; null: it is none of those
     Rgb vertex_colour{1, 1, 1};  // of the mesh, interpolated
     Vec3 along_u, along_v;       // ∂position/∂u and ∂position/∂v, metres
     std::uint32_t geometry = 0;  // index into the scene's shapes; Query::in_space: the point is on none
@@ -36,9 +38,14 @@ struct SurfacePoint {
     Ray ray_towards(Vec3 direction) const { return {origin_towards(direction), direction, Ray().far, time}; }
 };
 
+/// A place on a triangle of a mesh, by the weights of its second and its third corner.
+BetweenVertices between_vertices(const Mesh& mesh, std::uint32_t triangle, float u, float v);
+
 /// What its textures may depend on.
 inline TexturePlace place_of(const SurfacePoint& point) {
-    return {point.uv, point.vertex_colour, point.position, point.normal, point.second_uv};
+    TexturePlace place{point.uv, point.vertex_colour, point.position, point.normal};
+    if (point.mesh) place.vertices = between_vertices(*point.mesh, point.primitive, point.u, point.v);
+    return place;
 }
 
 inline Vec3 SurfacePoint::origin_towards(Vec3 direction) const {

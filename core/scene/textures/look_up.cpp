@@ -127,9 +127,10 @@ struct Pattern {
         there.uv = projected(t, place.position);
         return value_at(textures, t.texture, there);
     }
-    Rgb operator()(const SecondUvTexture& t) const {
+    Rgb operator()(VertexAlpha) const { return grey(place.vertices.alpha()); }
+    Rgb operator()(const OtherUvTexture& t) const {
         TexturePlace there = place;
-        there.uv = place.second_uv;
+        there.uv = place.vertices.uv(t.set);
         return value_at(textures, t.texture, there);
     }
     Rgb operator()(const CubesTexture& t) const {

@@ -7,6 +7,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/textures/texture.hpp"
+#include "core/scene/textures/vertex_values.hpp"
 
 namespace lightnet {
 
@@ -16,9 +17,8 @@ struct TexturePlace {
     Rgb vertex_colour{1, 1, 1};
     // world space; only where depends_on_place() says so
     Vec3 position{};
-    Vec3 normal{};  // geometric, unit
-    // of meshes that have a second set of texture coordinates
-    Vec2 second_uv{};
+    Vec3 normal{};               // geometric, unit
+    BetweenVertices vertices{};  // of meshes whose vertices know more
 };
 
 /// The value of a texture at a place: bilinear, not filtered over an area. Coordinate v counts upwards from the

@@ -88,13 +88,14 @@ void visit_members(Is<ProjectedTexture> auto& projected, const auto& visit) {
     visit(texture, by, from_world);
 }
 
-/// Another texture, laid over meshes by their second texture coordinates.
-struct SecondUvTexture {
+/// Another texture, laid over meshes by further texture coordinates.
+struct OtherUvTexture {
     TextureId texture = 0;
+    std::uint32_t set = 0;  // 0: the second
 };
-void visit_members(Is<SecondUvTexture> auto& second, const auto& visit) {
-    auto& [texture] = second;
-    visit(texture);
+void visit_members(Is<OtherUvTexture> auto& other, const auto& visit) {
+    auto& [texture, set] = other;
+    visit(texture, set);
 }
 
 /// Cubes of side 1 in a space of their own, alternating: `even` where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is.
@@ -156,13 +157,17 @@ void visit_members(Is<MarbleTexture> auto& marble, const auto& visit) {
 struct VertexColour {};
 void visit_members(Is<VertexColour> auto&, const auto&) { static_assert(std::is_empty_v<VertexColour>); }
 
+/// How much of a mesh is there, by its vertices, as grey; white where they don't say.
+struct VertexAlpha {};
+void visit_members(Is<VertexAlpha> auto&, const auto&) { static_assert(std::is_empty_v<VertexAlpha>); }
+
 /// A colour (or a number, then a grey) over a surface: `scale` × what the pattern says, then 1 - that if inverted.
 /// May name textures that stand before it only.
 struct Texture {
     Rgb scale{1, 1, 1};
     std::variant<std::monostate, ImageTexture, CheckerTexture, ProductTexture, MixTexture, VertexColour,
                  ProjectedTexture, CubesTexture, DotsTexture, DirectionTexture, NoiseTexture, MarbleTexture,
-                 SecondUvTexture>
+                 OtherUvTexture, VertexAlpha>
         pattern;
     bool invert = false;
 };
