@@ -62,6 +62,33 @@ SceneData gltf_with(const std::string& image, const std::string& texture, Memory
                    std::move(files));
 }
 
+const std::string dot_of_hdr =
+    "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\0\0\x81", 4);  // red
+
+TEST(MissingPictures, AreLookedForAsTheirMachineCalledThem) {
+    for (const std::string name : {"tex/Wood.PNG", "C:/work/wood.hdr", "TEX/WOOD.hdr"}) {
+        const MemoryFiles files{{"tex/wood.PNG", dot_of_hdr}, {"wood.hdr", dot_of_hdr}, {"tex/wood.hdr", dot_of_hdr}};
+        const auto xml = read_mitsuba_bsdf(
+            "<bsdf type='diffuse'><texture type='bitmap' name='reflectance'><string "
+            "name='filename' value='" +
+                name + "'/></texture></bsdf>",
+            files);
+        const auto& texture = xml.textures[model_of<DiffuseMaterial>(xml).reflectance];
+        EXPECT_EQ(std::get<ImageTexture>(texture.pattern).image->colour(0, 0).r, 1) << name;
+        EXPECT_THAT(warnings_of(xml), HasSubstr("no such file: '")) << name;
+        const auto pbrt = read_as("scene.pbrt",
+                                  "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" + name +
+                                      "\" Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\"",
+                                  files);
+        EXPECT_EQ(std::get<ImageTexture>(pbrt.textures[model_of<DiffuseMaterial>(pbrt).reflectance].pattern)
+                      .image->colour(0, 0)
+                      .r,
+                  1)
+            << name;
+        EXPECT_THAT(warnings_of(pbrt), HasSubstr("is taken")) << name;
+    }
+}
+
 TEST(MissingPictures, AreGreyInGltf) {
     for (const auto& [name, why] : bad) {
         const auto scene = gltf_with(R"({"uri":")" + std::string(name) + "\"}", R"({"source":0})", all_bad);

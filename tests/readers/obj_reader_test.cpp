@@ -73,12 +73,11 @@ TEST(Obj, TakesColoursOfVertices) {
 
 TEST(Obj, SaysWhatIsWrongAndWhere) {
     const std::string errors =
-        errors_as("a.obj", "v 0 0 zero\nv 1 0 0\nv 1 inf 0\nf 1 2 9\nf 0 1 2\nf 1 2\nf 1 x 2\nvn 1 2\n");
+        errors_as("a.obj", "v 0 0 zero\nv 1 0 0\nv 1 inf 0\nf 1 2 9\nf 0 1 2\n\nf 1 x 2\nvn 1 2\n");
     EXPECT_THAT(errors, HasSubstr("a.obj:1: a finite number expected, not 'zero'"));
     EXPECT_THAT(errors, HasSubstr("a.obj:3: a finite number expected, not 'inf'"));
     EXPECT_THAT(errors, HasSubstr("a.obj:4: index 9 is out of range: so far there are 3 vertices"));
     EXPECT_THAT(errors, HasSubstr("a.obj:5: index 0 is out of range"));
-    EXPECT_THAT(errors, HasSubstr("a.obj:6: a face has 2 corners"));
     EXPECT_THAT(errors, HasSubstr("a.obj:7: an index expected, not 'x'"));
     EXPECT_THAT(errors, HasSubstr("a.obj:8: a normal needs three numbers"));
     EXPECT_THAT(errors_as("a.obj", corners), HasSubstr("a.obj: there are no faces"));
@@ -86,9 +85,11 @@ TEST(Obj, SaysWhatIsWrongAndWhere) {
 }
 
 TEST(Obj, WarnsOfWhatItLeavesOut) {
-    const auto scene = read_as("a.obj", corners + "l 1 2\np 1\ncurv 0 1\nmtllib gone.mtl\nusemtl stone\nf 1 2 3\n");
+    const auto scene =
+        read_as("a.obj", corners + "l 1 2\np 1\ncurv 0 1\nmtllib gone.mtl\nusemtl stone\nf 1 2 3\nf 1 2\n");
     const std::string warnings = warnings_of(scene);
     EXPECT_THAT(warnings, HasSubstr("lines and points have no surface and are left out (2 times)"));
+    EXPECT_THAT(warnings, HasSubstr("a.obj:11: faces of fewer than three corners have no surface and are left out"));
     EXPECT_THAT(warnings, HasSubstr("unknown statement 'curv' is left out"));
     EXPECT_THAT(warnings, HasSubstr("a.obj:8: there is no material library 'gone.mtl': grey is taken"));
     EXPECT_THAT(warnings, HasSubstr("there is no material 'stone': grey is taken"));
@@ -215,13 +216,35 @@ TEST(Mtl, GoesWithoutPicturesThatCantBeRead) {
 }
 
 TEST(Mtl, SkipsOptionsOfPictures) {
-    const auto scene =
-        with_material("map_Kd -blendu off -blendv on -texres 512 -o 0 0 0 -s 1 1 1 -mm 0 1 -imfchan r wood.hdr\n",
-                      {{"wood.hdr", dot}});
+    const auto scene = with_material(
+        "map_Kd -blendu off -blendv on -texres 512 -o 0 0 0 -s 1 1 1 -mm 0 2 -cc on -imfchan r wood.hdr\n",
+        {{"wood.hdr", dot}});
     EXPECT_TRUE(
         std::holds_alternative<ImageTexture>(scene.textures[model_of<DiffuseMaterial>(scene).reflectance].pattern));
     EXPECT_THAT(warnings_of(scene), HasSubstr("option '-mm' of a map is left out"));
     EXPECT_THAT(warnings_of(scene), HasSubstr("option '-imfchan r' of a map is left out"));
+    const auto usual = with_material("map_Kd -mm 0 1 -t 0 0 0 -cc off \"wood.hdr\"\n", {{"wood.hdr", dot}});
+    EXPECT_THAT(warnings_of(usual), Not(HasSubstr("left out")));
+    EXPECT_TRUE(
+        std::holds_alternative<ImageTexture>(usual.textures[model_of<DiffuseMaterial>(usual).reflectance].pattern));
+}
+
+TEST(Mtl, ColoursReflectionsByKs) {
+    const auto scene = with_material("Kd 0 0 0\nKs .2 .4 .1\nNs 20\n");
+    const auto& model = model_of<PrincipledMaterial>(scene);
+    const Rgb reflected = model.specular_colour * model.specular;
+    EXPECT_NEAR(reflected.r, 0.2f, 1e-6f);
+    EXPECT_NEAR(reflected.g, 0.4f, 1e-6f);
+    EXPECT_NEAR(reflected.b, 0.1f, 1e-6f);
+    const auto even = with_material("Kd 0 0 0\nKs .5 .5 .5\nNs 20\nmap_Ks wood.hdr\n", {{"wood.hdr", dot}});
+    EXPECT_EQ(model_of<PrincipledMaterial>(even).specular_colour, (Rgb{1, 1, 1}));
+    EXPECT_TRUE(model_of<PrincipledMaterial>(even).specular_texture);
+}
+
+TEST(Mtl, NamesMaterialsThatAreThereTwice) {
+    const auto scene = with_material("Kd 1 0 0\nnewmtl a\nKd 0 1 0\n");
+    EXPECT_EQ(colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance), (Rgb{1, 0, 0}));
+    EXPECT_THAT(warnings_of(scene), HasSubstr("the material 'a' is there twice: the first one is taken"));
 }
 
 TEST(PlyScene, HasTheColoursOfItsVertices) {

@@ -68,7 +68,14 @@ std::shared_ptr<const Image> Assets::or_grey(const std::string& name, const Pict
 
 std::shared_ptr<const Image> Assets::picture(const std::string& path, const Encoding& encoding,
                                              const SourceLine& where) {
-    return or_grey(path, try_picture(path, encoding), where);
+    const Picture& first = try_picture(path, encoding);
+    if (!first.image && !exists(path))
+        for (const std::string& place : other_places(where.file, path))
+            if (const auto& other = try_picture(place, encoding).image) {
+                report_.warn(where, fmt::format("image '{}': {}: '{}' is taken", path, first.problem, place));
+                return other;
+            }
+    return or_grey(path, first, where);
 }
 
 std::shared_ptr<const Image> Assets::picture(const std::string& name, std::span<const std::byte> bytes,

@@ -9,9 +9,11 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "core/readers/common/report.hpp"
 #include "core/readers/files/files.hpp"
+#include "core/readers/files/other_places.hpp"
 #include "core/readers/images/image_file.hpp"
 #include "core/scene/data/scene_data.hpp"
 
@@ -35,14 +37,18 @@ public:
     bool stays_beside(const std::string& from, const std::string& path) const {
         return lightnet::stays_beside(files_, from, path);
     }
-    std::optional<std::string> like(const std::string& path) { return files_.like(path); }
+    /// See lightnet::other_places().
+    std::vector<std::string> other_places(const std::string& from, const std::string& written) {
+        return lightnet::other_places(files_, from, written);
+    }
     /// An image, or why there is none.
     struct Picture {
         std::shared_ptr<const Image> image;
         std::string problem;
     };
     const Picture& try_picture(const std::string& path, const Encoding& encoding);
-    /// The image at `path`; one that is missing or damaged is mid-grey, with a warning.
+    /// The image at `path`, or at another place where the file that names it may mean one; one that is missing or
+    /// damaged is mid-grey. But for the first, a warning says so.
     std::shared_ptr<const Image> picture(const std::string& path, const Encoding& encoding, const SourceLine& where);
     /// An image inside another file; `name` tells it from all others.
     std::shared_ptr<const Image> picture(const std::string& name, std::span<const std::byte> bytes,

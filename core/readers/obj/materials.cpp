@@ -51,7 +51,7 @@ public:
         while (!report_.full() && lines_.next()) {
             const std::string word(lines_.word());
             if (word == "newmtl")
-                materials_.push_back({std::string(lines_.rest()), lines_.where(), {}, {}, {}});
+                begin(std::string(lines_.rest()));
             else if (materials_.empty())
                 report_.error(lines_.where(), fmt::format("'{}' stands before the first 'newmtl'", word.substr(0, 32)));
             else
@@ -61,6 +61,13 @@ public:
     }
 
 private:
+    void begin(std::string name) {
+        if (!names_.insert(name).second)
+            report_.warn(lines_.where(),
+                         fmt::format("the material '{}' is there twice: the first one is taken", name.substr(0, 64)));
+        materials_.push_back({std::move(name), lines_.where(), {}, {}, {}});
+    }
+
     void statement(const std::string& word, Statements& material) {
         static const std::set<std::string, std::less<>> colours{"Ka", "Kd", "Ks", "Ke", "Tf"};
         static const std::set<std::string, std::less<>> numbers{"Ns", "Ni", "d",   "Tr",    "illum",  "Pr",       "Pm",
@@ -79,8 +86,8 @@ private:
             if (auto read = map(word)) material.maps[known->second] = *read;
         } else {
             report_.warn(lines_.where(),
-                         fmt::format("{} '{}' is left out", ignored.contains(word) ? "statement" : "unknown statement",
-                                     word.substr(0, 32)));
+                         fmt::format("{} '{}' is left out: the picture shows nothing of it",
+                                     ignored.contains(word) ? "statement" : "unknown statement", word.substr(0, 32)));
         }
     }
 
@@ -136,15 +143,21 @@ private:
             if (!values.empty()) pair.x = values[0];
             if (values.size() > 1) pair.y = values[1];
         } else if (option == "-t" || option == "-mm") {
-            report_.warn(map.where, fmt::format("option '{}' of a map is left out", option));
-            numbers_ahead(option == "-t" ? 3 : 2);
+            const auto values = numbers_ahead(option == "-t" ? 3 : 2);
+            const bool usual = option == "-t" ? std::ranges::all_of(values, [](float value) { return value == 0; })
+                                              : values == std::vector<float>{0, 1};
+            if (!usual)
+                report_.warn(map.where, fmt::format("option '{}' of a map is left out: it lies as without", option));
         } else if (option == "-cc" || option == "-imfchan" || option == "-boost" || option == "-colorspace") {
-            report_.warn(map.where, fmt::format("option '{} {}' of a map is left out", option,
-                                                std::string(lines_.word().substr(0, 32))));
+            const std::string value(lines_.word().substr(0, 32));
+            if (option != "-cc" || value != "off")
+                report_.warn(map.where,
+                             fmt::format("option '{} {}' of a map is left out: it is as without", option, value));
         } else if (option == "-blendu" || option == "-blendv" || option == "-type" || option == "-texres") {
             lines_.word();  // of no effect on what is there
         } else {
-            report_.warn(map.where, fmt::format("unknown option '{}' of a map is left out", option.substr(0, 32)));
+            report_.warn(map.where, fmt::format("unknown option '{}' of a map is left out: it is as without",
+                                                option.substr(0, 32)));
         }
     }
 
@@ -165,6 +178,7 @@ private:
     Lines lines_;
     Report& report_;
     std::vector<Statements> materials_;
+    std::set<std::string> names_;  // of these
 };
 
 /// Makes materials of statements.
@@ -175,6 +189,7 @@ public:
     Surface make(const Statements& said) {
         Material material = model(said);
         material.name = said.name;
+        name_unused(said, material);
         opacity(said, material);
         if (const auto map = picture(said, "norm", {Encoding::Curve::linear, 1}))
             material.normal_map = assets_.add(*map);
@@ -187,6 +202,21 @@ public:
     }
 
 private:
+    /// What has no effect on a material of that kind, and would have one elsewhere.
+    void name_unused(const Statements& said, const Material& material) {
+        const auto name = [&](std::string_view word, std::string_view why) {
+            assets_.report().warn(said.where, fmt::format("'{}' is left out: {}", word, why));
+        };
+        const bool glass = std::holds_alternative<DielectricMaterial>(material.model);
+        const auto* principled = std::get_if<PrincipledMaterial>(&material.model);
+        if (!glass && said.colour("Tf", {1, 1, 1}) != Rgb{1, 1, 1}) name("Tf", "the surface lets no light through");
+        if (said.number("anisor", 0) != 0) name("anisor", "grooves lie along the texture coordinates");
+        if ((glass || std::holds_alternative<ConductorMaterial>(material.model)) && said.maps.contains("Kd"))
+            name("map_Kd", "glass and mirrors are even here");
+        if (said.maps.contains("Ks") && !(principled && principled->specular_texture))
+            name("map_Ks", "the surface reflects without it");
+    }
+
     /// None: there is none that can be read, which is warned of.
     std::optional<Texture> picture(const Statements& said, std::string_view key, const Encoding& encoding = {}) {
         const auto map = said.maps.find(key);
@@ -249,11 +279,16 @@ private:
             if (said.has("Ns")) mirror.roughness = from_exponent(said.number("Ns", 1e6f));
             return {said.name, mirror};
         }
-        if (is_black(specular) || illum < 2)
+        const auto gloss = illum < 2 ? std::nullopt : picture(said, "Ks");
+        if ((is_black(specular) && !gloss) || illum < 2)
             return {said.name, DiffuseMaterial{coloured(said, "Kd", {0.8f, 0.8f, 0.8f})}};
         PrincipledMaterial shiny;
         shiny.base_colour = coloured(said, "Kd", {0.8f, 0.8f, 0.8f});
-        shiny.specular = std::clamp(luminance(specular), 0.0f, 1.0f);
+        shiny.specular = is_black(specular) ? 1 : std::clamp(luminance(specular), 0.0f, 1.0f);
+        const float bright = luminance(specular);
+        const bool grey = specular.r == specular.g && specular.g == specular.b;
+        if (bright > 0 && !grey) shiny.specular_colour = specular / bright;
+        if (gloss) shiny.specular_texture = assets_.add(*gloss);
         shiny.eta = eta > 1 ? eta : 1.5f;
         shiny.roughness = from_exponent(said.number("Ns", 10));
         return {said.name, shiny};

@@ -73,7 +73,9 @@ private:
         if (word == "l" || word == "p")
             report_.warn(lines_.where(), "lines and points have no surface and are left out");
         else
-            report_.warn(lines_.where(), fmt::format("unknown statement '{}' is left out", word.substr(0, 32)));
+            report_.warn(
+                lines_.where(),
+                fmt::format("unknown statement '{}' is left out: the picture shows nothing of it", word.substr(0, 32)));
     }
 
     /// Three numbers. None: reported.
@@ -181,7 +183,7 @@ private:
             corners_.push_back(vertex_of(open, *read));
         }
         if (corners_.size() < 3)
-            return report_.error(lines_.where(), fmt::format("a face has {} corners", corners_.size()));
+            return report_.warn(lines_.where(), "faces of fewer than three corners have no surface and are left out");
         auto& mesh = open.part.mesh;
         triangulate(mesh.positions, corners_, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             mesh.triangles.push_back({a, b, c});

@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "core/readers/files/other_places.hpp"
+
 namespace lightnet::pbrt {
 namespace {
 
@@ -26,15 +28,28 @@ std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encodi
 // Null: its problem says why.
 Bytes Pictures::read(Order& order) const {
     try {
-        const std::string path = sources_.path(order.name);
-        expect_image(sources_.files.beginning(path, image_beginning));
-        return sources_.files.read(path);
+        return expected(sources_.path(order.name));
     } catch (const MissingHere&) {
         throw;
     } catch (const Error& problem) {
         order.problem = problem.what();
-        return nullptr;
     }
+    for (const auto& place : other_places(sources_.files, order.where.file, sources_.path(order.name))) try {
+            const Bytes bytes = expected(place);
+            sources_.report.warn(order.where,
+                                 fmt::format("image '{}': {}: '{}' is taken", order.name, order.problem, place));
+            order.problem.clear();
+            return bytes;
+        } catch (const MissingHere&) {
+            throw;
+        } catch (const Error&) {  // nor is that an image
+        }
+    return nullptr;
+}
+
+Bytes Pictures::expected(const std::string& path) const {
+    expect_image(sources_.files.beginning(path, image_beginning));
+    return sources_.files.read(path);
 }
 
 void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding) {

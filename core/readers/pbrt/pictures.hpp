@@ -39,6 +39,7 @@ private:
     using Key = std::tuple<std::string, Encoding::Curve, float>;
 
     Bytes read(Order& order) const;
+    Bytes expected(const std::string& path) const;
     void decode(Order& order, const Bytes& bytes, const Encoding& encoding);
 
     const Sources& sources_;

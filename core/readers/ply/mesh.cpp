@@ -81,6 +81,10 @@ int slot_of(std::string_view name) {
     return -1;
 }
 
+bool is_list_of_corners(const Property& property) {
+    return property.list && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
 /// What properties of an element are told apart by.
 struct Names {
     std::string_view attribute{};  // without "vertex_" or "face_"; "": of nobody's
@@ -212,9 +216,7 @@ template <class Read>
 void read_lists(Input& input, Format format, const Element& element, const Names& names, AttributedMesh& to,
                 const Read& read) {
     Mesh& mesh = to.mesh;
-    const auto corners = [](const Property& p) {
-        return p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
-    };
+    const auto corners = is_list_of_corners;
     if (std::none_of(element.properties.begin(), element.properties.end(), corners))
         fail(fmt::format("'{}' has no list 'vertex_indices'", element.name.substr(0, 32)));
     mesh.triangles.reserve(mesh.triangles.size() + element.count);
@@ -274,6 +276,20 @@ AttributedMesh read_all(std::span<const std::byte> bytes, const Names& of_vertic
 }  // namespace
 
 Mesh read_ply(std::span<const std::byte> bytes) { return read_all(bytes, {}, {}).mesh; }
+
+std::vector<std::string> skipped_in_ply(std::span<const std::byte> bytes) {
+    Input input({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    std::vector<std::string> skipped;
+    for (const auto& element : ply::read_header(input).elements) {
+        const bool vertices = element.name == "vertex", faces = element.name == "face" || element.name == "tristrips";
+        if (!vertices && !faces) skipped.push_back(fmt::format("element '{}'", element.name.substr(0, 32)));
+        if (!vertices && !faces) continue;
+        for (const auto& property : element.properties)
+            if (vertices ? slot_of(property.name) < 0 : !is_list_of_corners(property))
+                skipped.push_back(fmt::format("property '{}' of '{}'", property.name.substr(0, 32), element.name));
+    }
+    return skipped;
+}
 
 AttributedMesh read_ply(std::span<const std::byte> bytes, std::string_view attribute) {
     constexpr std::string_view vertex = "vertex_", face = "face_";

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace lightnet {
 /// Other properties and elements are skipped. Throws Error (without a file name) when the bytes are no sound PLY file;
 /// allocates no more than a small multiple of them.
 Mesh read_ply(std::span<const std::byte> bytes);
+
+/// What read_ply() skips: "property 'alpha' of 'vertex'", "element 'edge'", in the order of the file. Throws Error as
+/// it does.
+std::vector<std::string> skipped_in_ply(std::span<const std::byte> bytes);
 
 /// A mesh with numbers of a name of their own, in the place of its colours.
 struct AttributedMesh {

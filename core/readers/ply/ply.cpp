@@ -11,7 +11,10 @@ Mesh mesh_of(Assets& assets, const std::string& path) {
     const auto bytes = assets.read(path, {path, 0});
     assets.report().check();
     try {
-        return read_ply(**bytes);
+        Mesh mesh = read_ply(**bytes);
+        for (const auto& what : skipped_in_ply(**bytes))
+            assets.report().warn({path, 0}, what + " is left out: the picture shows nothing of it");
+        return mesh;
     } catch (const Error& problem) {
         throw UserError({path, 0}, problem.what());
     }
