@@ -16,6 +16,7 @@
 #include "core/base/suggestion.hpp"
 #include "core/readers/daylight/daylight.hpp"
 #include "core/readers/images/image_file.hpp"
+#include "core/readers/lamp_profiles.hpp"
 #include "core/scene/reach.hpp"
 
 namespace lightnet {
@@ -196,7 +197,8 @@ std::optional<Onlooker> look_again(const SceneOverrides& overrides, const SceneD
     scene.film = changed.as_read.film;
     scene.cameras = changed.cameras;
     look_as_wanted(overrides, scene, where);
-    const bool stands_by_camera = overrides.sky || std::holds_alternative<std::string>(overrides.environment);
+    const bool stands_by_camera =
+        overrides.sky || !overrides.profiles.empty() || std::holds_alternative<std::string>(overrides.environment);
     if (!scene.camera_given || (stands_by_camera && !(upwards(scene) == upwards(changed)))) return std::nullopt;
     scene.film.scale *= std::exp2(overrides.exposure);
     return Onlooker{scene.camera, true, scene.film};
@@ -222,6 +224,7 @@ void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, cons
     if (overrides.clay) make_clay(scene);
     if (overrides.two_sided)
         for (auto& material : scene.materials) material.one_sided = false;
+    if (!overrides.profiles.empty()) put_profiles(overrides.profiles, upwards(scene), scene, files, where);
     if (overrides.groups.empty()) return;
     std::vector<Problem> problems;
     for (auto& mistake : sort_lamps(scene, overrides.groups)) problems.push_back({where, "'groups': " + mistake});

@@ -37,6 +37,12 @@ struct FogOverride {
     float g = 0;  // mean cosine, -1 … 1 without these
 };
 
+/// How one of the scene's lamps shines.
+struct ProfileOverride {
+    std::string lamp;  // its name, * for any part of one
+    std::string path;  // of the luminaire's profile
+};
+
 struct SceneOverrides {
     std::string seen_by{};  // camera of the file, by its name or number (1, 2, …); "": the first one
     std::optional<CameraOverride> camera;
@@ -48,6 +54,7 @@ struct SceneOverrides {
     bool clay = false;                // all surfaces grey and diffuse
     bool two_sided = false;           // none is black from behind
     std::vector<LampGroup> groups{};  // of lamps
+    std::vector<ProfileOverride> profiles{};
 };
 
 /// Who would look at a scene, which was changed by other overrides, by these: they differ in the camera alone. None: it

@@ -640,6 +640,8 @@ class Scene(Node):
         values for variables of the file (Mitsuba's <default>s), by their names
     variant: text
         one of several variants of the file's materials (glTF), by its name
+    pbrt: integer, 3.0 … 4.0
+        the version of pbrt, 3 or 4, whose meaning a .pbrt file has; else what it says by itself tells
     animation: text
         one of several animations of the file (glTF), by its name; else the first
     time: number, in seconds
@@ -652,6 +654,8 @@ class Scene(Node):
         clay: all surfaces are grey and diffuse; lamps and cut-outs stay
     groups: table of names
         groups of lamps, each the names of its lamps, * for any part of one; what is in none is in 'rest'
+    ies: table of names
+        profiles of luminaires (.ies) for points and spots, by the lamps' names, * for any part of one
     two_sided: flag
         surfaces that the file has black from behind (Mitsuba's, without a twosided) look alike on both sides
     """
@@ -668,12 +672,14 @@ class Scene(Node):
         exposure: float | None = ...,
         constants: Mapping[str, Any] | None = ...,
         variant: str | None = ...,
+        pbrt: int | None = ...,
         animation: str | None = ...,
         time: float | None = ...,
         shutter: Sequence[float] | None = ...,
         fps: float | None = ...,
         material: Literal["clay"] | None = ...,
         groups: Mapping[str, str | Sequence[str]] | None = ...,
+        ies: Mapping[str, str | Sequence[str]] | None = ...,
         two_sided: bool | None = ...,
         name: str | None = ...,
     ) -> None: ...

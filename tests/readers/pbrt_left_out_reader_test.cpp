@@ -64,8 +64,6 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Shapes, EveryThingLeftOut,
     testing::Values(
-        LeftOut{"WorldBegin Shape \"trianglemesh\"" + flat + "\"vector3 S\" [ 1 0 0 1 0 0 1 0 0 ]",
-                "tangents ('S') are left out"},
         LeftOut{"WorldBegin Shape \"plymesh\" \"string filename\" \"m.ply\" \"string displacement\" \"d\"",
                 "displacement is left out"},
         LeftOut{"WorldBegin Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 1 ]", "is cut into triangles"},

@@ -38,6 +38,16 @@ TEST(PbrtNormals, OfATriangleFollowTheOrderOfItsCorners) {
     expect_near(normal_of(mesh_of(read_world(triangle))), {0, 0, 1});
 }
 
+TEST(PbrtTangents, TurnWithTheirMesh) {
+    const std::string corners = "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"vector3 S\" ";
+    const auto scene = read_world("Rotate 90 0 0 1 Scale 2 2 2 " + corners + "[ 1 0 0 1 0 0 0 1 0 ]");
+    ASSERT_THAT(mesh_of(scene).tangents, SizeIs(3));
+    expect_near(mesh_of(scene).tangents[0].along, {0, 1, 0});
+    expect_near(mesh_of(scene).tangents[2].along, {-1, 0, 0});
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    EXPECT_THAT(errors_of_world(corners + "[ 1 0 0 ]"), HasSubstr("there are 1 'S' for 3 vertices"));
+}
+
 TEST(PbrtNormals, AreTurnedByReverseOrientation) {
     expect_near(normal_of(mesh_of(read_world("ReverseOrientation " + triangle))), {0, 0, -1});
 }

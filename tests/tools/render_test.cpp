@@ -180,8 +180,9 @@ TEST(Render, SaysWhatIsWrong) {
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--env", "no.exr"}), 2);
     EXPECT_THAT(lightnet.err, HasSubstr("no.exr'"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "-D", "a=1"}), 2);
-    EXPECT_THAT(lightnet.err,
-                HasSubstr("only Mitsuba's scenes ('.xml'), scenes in '.gltf' have variables: there is no 'a'"));
+    EXPECT_THAT(
+        lightnet.err,
+        HasSubstr("pbrt's files have no variables but 'pbrt', which of its versions they mean: there is no 'a'"));
     EXPECT_EQ(lightnet({"render", "no.pbrt"}), 2);
     EXPECT_THAT(lightnet.err, HasSubstr("can't read the scene"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--smaples", "3"}), 2);

@@ -101,7 +101,8 @@ const EnvironmentData* Lights::pattern(std::size_t index, const At& at) {
     if (!bytes) return nullptr;
     try {
         const auto profile = read_light_profile({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-        if (profile.tilted) at.warn("how the lamp's light changes as it is tilted is left out");
+        if (profile.tilted)
+            at.warn("how the lamp's light changes as it is tilted is left out: it shines as where it hangs straight");
         made = pattern_of(profile, Matrix{});
     } catch (const Error& problem) {
         at.error(problem.what());

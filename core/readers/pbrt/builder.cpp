@@ -93,7 +93,9 @@ const std::map<std::string, Builder::Handler>& Builder::handlers() {
 
 void Builder::execute(Statement& statement) {
     end_if_unwanted();
-    if (ended_) return sources_.report.warn(statement.where, "what stands behind the first WorldEnd is left out");
+    if (ended_)
+        return sources_.report.warn(statement.where,
+                                    "what stands behind the first WorldEnd is left out: nothing of it is seen");
     const Part part = part_of(statement.directive);
     if (state_.space != ColourSpace::srgb) statement.parameters.set_colour_space(state_.space);
     if (part == Part::before_world && in_world_)

@@ -18,6 +18,7 @@ Mesh single(const Mesh& mesh, std::size_t triangle) {
         result.positions.push_back(mesh.positions[i]);
         if (!mesh.normals.empty()) result.normals.push_back(mesh.normals[i]);
         if (!mesh.uvs.empty()) result.uvs.push_back(mesh.uvs[i]);
+        if (!mesh.tangents.empty()) result.tangents.push_back(mesh.tangents[i]);
     }
     result.triangles.push_back({0, 1, 2});
     return result;
@@ -122,8 +123,9 @@ MaterialId Builder::filled(MaterialId material, const WaitingShape& waiting) {
     const auto* glass = std::get_if<DielectricMaterial>(&scene_.materials[material].model);
     // pbrt's rays stay in the medium in which they are, unless it changes there
     if (!glass || glass->thin || waiting.inside == waiting.outside) {
-        sources_.report.warn(waiting.where,
-                             "a medium that absorbs is left out where it isn't on one side of a 'dielectric'");
+        sources_.report.warn(
+            waiting.where,
+            "a medium that absorbs is left out where it isn't on one side of a 'dielectric': there it is clear");
         return material;
     }
     // who turns a shape and names what fills it as its outside means the shape that isn't turned

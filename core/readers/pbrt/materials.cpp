@@ -95,7 +95,7 @@ CoatLayer walk_through_coat(Parameters& parameters) {
     if (const Parameter* albedo = parameters.find("albedo")) {
         const auto colour = albedo->type == Type::texture ? std::nullopt : std::optional(albedo->numbers);
         const bool black = colour && std::all_of(colour->begin(), colour->end(), [](float x) { return x == 0; });
-        if (!black) parameters.warn("scattering inside the coat ('albedo') is left out");
+        if (!black) parameters.warn("scattering inside the coat ('albedo') is left out: the coat is clear");
     }
     return layer;
 }

@@ -237,7 +237,7 @@ bool Media::gridded(const std::string& type, const Matrix& to_world, Parameters&
         medium.extinction.value = Rgb{scale, scale, scale};
         medium.albedo.grid = scattered;
         medium.albedo.value = scattered ? Rgb{scale, scale, scale} : Rgb{};
-        if (parameters.find("Le")) parameters.warn("what an 'rgbgrid' emits ('Le') is left out");
+        if (parameters.find("Le")) parameters.warn("what an 'rgbgrid' emits ('Le') is left out: it is dark");
         return true;
     }
     coloured(parameters, medium, {1, 1, 1}, {1, 1, 1});
@@ -245,7 +245,8 @@ bool Media::gridded(const std::string& type, const Matrix& to_world, Parameters&
         cloud(parameters, medium, *box);
     } else {
         medium.extinction.grid = grid_of(parameters, "density", 1);
-        if (parameters.find("temperature")) parameters.warn("what a medium emits by its 'temperature' is left out");
+        if (parameters.find("temperature"))
+            parameters.warn("what a medium emits by its 'temperature' is left out: it is dark");
         const Parameter* scale = parameters.find("Lescale");
         if (scale && scale->numbers.size() > 1)
             parameters.warn("'Lescale' can't change in space: 1 is taken");

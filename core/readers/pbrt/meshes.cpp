@@ -66,7 +66,6 @@ std::optional<Mesh> vertices(Parameters& parameters) {
     mesh.normals = parameters.triples("N", Type::normal);
     mesh.uvs = parameters.pairs(parameters.find("st") ? "st" : "uv", Type::point2);
     parameters.ignore({"faceIndices", "uv"});
-    if (parameters.find("S")) parameters.warn("tangents ('S') are left out: grooves follow the texture coordinates");
     const std::size_t count = mesh.positions.size();
     if (count == 0) {
         parameters.error("parameter 'P' is missing");
@@ -120,6 +119,11 @@ std::optional<Mesh> triangle_mesh(Parameters& parameters) {
     auto mesh = vertices(parameters);
     if (!mesh) return std::nullopt;
     const auto corners = indices(parameters, mesh->positions.size(), 3);
+    const auto tangents = parameters.triples("S", Type::vector3);
+    if (!tangents.empty() && tangents.size() != mesh->positions.size())
+        parameters.error(fmt::format("there are {} 'S' for {} vertices", tangents.size(), mesh->positions.size()));
+    else
+        for (const Vec3 along : tangents) mesh->tangents.push_back({along, 1});
     if (!corners) return std::nullopt;
     for (std::size_t i = 0; i < corners->size(); i += 3)
         mesh->triangles.push_back({(*corners)[i], (*corners)[i + 1], (*corners)[i + 2]});
@@ -174,6 +178,7 @@ std::string place(Mesh& mesh, const Placement& placement, bool turn) {
         n = unit_or_zero(transform_normal(placement.from_world, n));
         if (turn) n = -n;
     }
+    for (auto& t : mesh.tangents) t.along = unit_or_zero(transform_direction(placement.to_world, t.along));
     if (!mesh.normals.empty()) order_by_normals(mesh);
     return {};
 }

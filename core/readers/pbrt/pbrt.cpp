@@ -82,7 +82,26 @@ private:
     int files_ = 0;
 };
 
-SceneData read(Files& files, const std::string& path, const SceneConstants&) {
+/// The one variable of a file is which of the versions it means. None: it is not said.
+std::optional<VersionSign> wanted_version(const SceneConstants& constants, const std::string& path) {
+    std::optional<VersionSign> wanted;
+    for (const auto& [name, value] : constants) {
+        if (name != "pbrt")
+            throw UserError({path, 0},
+                            "pbrt's files have no variables but 'pbrt', which of its versions they mean: there "
+                            "is no '" +
+                                name + "' to define");
+        if (value != "3" && value != "4")
+            throw UserError({path, 0},
+                            "'pbrt' is the version of pbrt that the file means: 3 or 4, not '" + value + "'");
+        wanted = VersionSign{value == "3" ? Version::v3 : Version::v4, {path, 0}, ""};
+    }
+    return wanted;
+}
+
+SceneData read(Files& files, const std::string& path, const SceneConstants& constants) {
+    auto sign = wanted_version(constants, path);
+    const bool told = sign.has_value();
     Report report;
     Bytes bytes;
     try {
@@ -90,9 +109,9 @@ SceneData read(Files& files, const std::string& path, const SceneConstants&) {
     } catch (const Error& problem) {
         throw UserError({path, 0}, fmt::format("can't read the scene: {}", problem.what()));
     }
-    const auto sign = find_version(files, path);
+    if (!told) sign = find_version(files, path);
     const Sources sources{files, path, report, sign ? sign->version : Version::v4};
-    if (sources.older())
+    if (sources.older() && !told)
         report.warn(sign->where, fmt::format("the scene is read as one of pbrt-v3, of which only that says {}: see "
                                              "docs/pbrt.md for what differs",
                                              sign->text));
@@ -105,6 +124,6 @@ SceneData read(Files& files, const std::string& path, const SceneConstants&) {
 
 }  // namespace
 
-SceneFormat format() { return {.endings = {".pbrt"}, .read = read}; }
+SceneFormat format() { return {.endings = {".pbrt"}, .has_variables = true, .read = read}; }
 
 }  // namespace lightnet::pbrt

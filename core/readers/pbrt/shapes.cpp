@@ -148,7 +148,7 @@ std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& par
 
 std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placement& placement) {
     const std::string file = parameters.file("filename");
-    if (parameters.find("displacement")) parameters.warn("displacement is left out");
+    if (parameters.find("displacement")) parameters.warn("displacement is left out: the shape stays smooth");
     parameters.ignore({"edgelength"});
     if (file.empty()) {
         parameters.error("parameter 'filename' is missing");

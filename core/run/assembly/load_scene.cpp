@@ -86,6 +86,10 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     if (const auto groups = params.find("groups"); groups != params.end())
         for (const auto& [name, lamps] : std::get<Table>(groups->second.data).named)
             overrides.groups.push_back({name, names_in(lamps)});
+    if (const auto profiles = params.find("ies"); profiles != params.end())
+        for (const auto& [lamp, files] : std::get<Table>(profiles->second.data).named)
+            for (const std::string& file : names_in(files))
+                overrides.profiles.push_back({lamp, beside_graph(graph, file)});
     return overrides;
 }
 
@@ -98,9 +102,12 @@ std::map<std::string, std::string> scene_constants(const Node& scene) {
                 const auto* text = std::get_if<std::string>(&value.data);
                 constants[name] = text ? *text : to_string(value);
             }
-    // to the reader it is one more variable of the file
+    // to the reader they are two more variables of the file
     if (variant != scene.params.end())
         if (const auto* name = std::get_if<std::string>(&variant->second.data)) constants["variant"] = *name;
+    if (const auto version = scene.params.find("pbrt"); version != scene.params.end())
+        if (const auto* number = std::get_if<double>(&version->second.data))
+            constants["pbrt"] = to_string(Value{*number});
     if (const auto animation = scene.params.find("animation"); animation != scene.params.end())
         if (const auto* name = std::get_if<std::string>(&animation->second.data))
             constants[std::string(animation_constant)] = *name;

@@ -108,6 +108,24 @@ std::vector<std::string> lamp_names_of_shapes(const SceneData& scene) {
     return names;
 }
 
+LampsCalled lamps_called(const SceneData& scene, const std::string& wanted) {
+    LampsCalled found;
+    std::size_t next = 0;  // of the lights without a shape
+    each_lamp(scene, [&](const auto& names, const std::string& what, std::uint32_t) {
+        const bool bare = what != "shape" && what != "environment";
+        if (goes_by_any(names, wanted)) {
+            if (bare)
+                found.lights.push_back(next);
+            else if (found.another.empty())
+                found.another = names.front();
+        }
+        next += bare;
+    });
+    if (found.lights.empty() && found.another.empty())
+        found.fault = "there is no lamp called " + in_quotes(wanted) + hint(wanted, all_names(scene));
+    return found;
+}
+
 std::vector<std::string> sort_lamps(SceneData& scene, const std::vector<LampGroup>& groups) {
     scene.groups.clear();
     for (const auto& group : groups) scene.groups.push_back(group.name);

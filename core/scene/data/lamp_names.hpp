@@ -25,6 +25,14 @@ std::vector<NamedLamp> lamps_of(const SceneData& scene);
 /// By shape: the first name of the lamp that it is; "": it is none.
 std::vector<std::string> lamp_names_of_shapes(const SceneData& scene);
 
+/// Lamps that go by one name, or are of its form.
+struct LampsCalled {
+    std::vector<std::size_t> lights;  // indices into SceneData::lights
+    std::string another;              // the name of the first that has a shape, or is around the scene; "": none is
+    std::string fault;                // what is wrong where there are none at all; else ""
+};
+LampsCalled lamps_called(const SceneData& scene, const std::string& wanted);
+
 /// Lamps whose light is kept apart, or looked for alone.
 struct LampGroup {
     std::string name;

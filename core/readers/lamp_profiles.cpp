@@ -1,0 +1,88 @@
+#include "core/readers/lamp_profiles.hpp"
+
+#include <optional>
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "core/base/in_quotes.hpp"
+#include "core/base/math/frame.hpp"
+#include "core/readers/common/light_profile.hpp"
+
+namespace lightnet {
+namespace {
+
+/// Turns the luminaire's own axes, whose straight down is -z.
+Matrix hung(Vec3 down) {
+    const Frame frame = Frame::around(-down);
+    Matrix turn;
+    const Vec3 axes[] = {frame.x, frame.y, frame.z};
+    for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t i = 0; i < 3; ++i) turn.m[i][j] = double{axes[j][i]};
+    return turn;
+}
+
+PointLight shaped(const PointLight& light, const LightProfile& profile, Vec3 up) {
+    return {light.position, light.intensity, light.label, pattern_of(profile, hung(-up))};
+}
+PointLight shaped(const SpotLight& light, const LightProfile& profile, Vec3) {
+    return {light.position, light.intensity, light.label, pattern_of(profile, hung(light.axis))};
+}
+
+/// None: it comes from infinity.
+std::optional<BareLight> shaped(const BareLight& light, const LightProfile& profile, Vec3 up) {
+    if (const auto* point = std::get_if<PointLight>(&light)) return shaped(*point, profile, up);
+    if (const auto* spot = std::get_if<SpotLight>(&light)) return shaped(*spot, profile, up);
+    return std::nullopt;
+}
+
+/// Also at later steps, where it moves.
+bool shape(SceneData& scene, std::size_t which, const LightProfile& profile, Vec3 up) {
+    const auto made = shaped(scene.lights[which], profile, up);
+    if (!made) return false;
+    scene.lights[which] = *made;
+    for (BareLight& step : SceneMotion::steps_after(scene.motion.lights, which))
+        if (const auto then = shaped(step, profile, up)) step = *then;
+    return true;
+}
+
+std::optional<LightProfile> profile_in(const std::string& path, Files& files, std::vector<Problem>& problems,
+                                       const SourceLine& where) {
+    try {
+        const Bytes bytes = files.read(path);
+        auto profile = read_light_profile({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+        return profile;
+    } catch (const MissingHere&) {
+        throw;
+    } catch (const Error& problem) {
+        problems.push_back({where, "'ies': can't read " + in_quotes(path) + ": " + problem.what()});
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+void put_profiles(std::span<const ProfileOverride> profiles, Vec3 up, SceneData& scene, Files& files,
+                  const SourceLine& where) {
+    std::vector<Problem> problems;
+    std::set<std::size_t> done;
+    for (const auto& [lamp, path] : profiles) {
+        const auto profile = profile_in(path, files, problems, where);
+        auto [lights, another, fault] = lamps_called(scene, lamp);
+        if (!another.empty())
+            fault = "lamp " + in_quotes(another) + " is no point and no spot, which alone can shine by a profile";
+        if (profile && profile->tilted)
+            scene.warnings.push_back({where, in_quotes(path) + ": how the lamp's light changes as it is tilted is left "
+                                                               "out: it shines as where it hangs straight"});
+        for (const std::size_t which : lights) {
+            if (!done.insert(which).second)
+                fault = "a lamp called " + in_quotes(lamp) + " has another profile already";
+            else if (profile && !shape(scene, which, *profile, up))
+                fault = "a lamp called " + in_quotes(lamp) + " is a sun: it has no profile";
+        }
+        if (!fault.empty()) problems.push_back({where, "'ies': " + fault});
+    }
+    if (!problems.empty()) throw UserError(std::move(problems));
+}
+
+}  // namespace lightnet
