@@ -218,7 +218,7 @@ TEST(Clean, OfOnePixelAndOfOneSampleIsThePictureItself) {
 TEST(Clean, KnowsNothingOfWhereItsAreasLie) {
     // far from the border, a piece of a picture is cleaned as the whole is, wherever areas begin
     const Picture whole = rendered(200, 160, {{"direct", ramp}}, 0.3f);
-    Picture piece{150, 120, {}, {}};
+    Picture piece{150, 120, {}, {}, 41, 37, 200, 160};
     const auto cut = [&](const PictureLayer& layer) {
         PictureLayer part{layer.name, {}};
         for (std::uint32_t y = 0; y < 120; ++y)
@@ -228,8 +228,8 @@ TEST(Clean, KnowsNothingOfWhereItsAreasLie) {
     piece.layers = {cut(whole.layers[0])}, piece.shown = {cut(whole.shown[0])};
     make_beauty(piece);
     const Picture a = clean(whole).picture, b = clean(piece).picture;
-    for (std::uint32_t y = 20; y < 100; ++y)
-        for (std::uint32_t x = 20; x < 130; ++x)
+    for (std::uint32_t y = 34; y < 86; ++y)
+        for (std::uint32_t x = 34; x < 116; ++x)
             ASSERT_EQ(a.beauty[(y + 37) * 200 + x + 41], b.beauty[y * 150 + x]) << x << ", " << y;
 }
 

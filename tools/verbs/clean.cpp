@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <ostream>
+#include <utility>
 
 #include "core/base/own_files.hpp"
 #include "core/film/exr.hpp"
@@ -23,6 +24,7 @@ namespace {
 
 struct CleanOptions {
     std::string picture, output;
+    bool best = false;
     PngRequest png;
 };
 
@@ -32,9 +34,10 @@ void describe_clean(CLI::App& verb, CleanOptions& options) {
             "a picture as lightnet writes it; best one that was rendered with --clean, which has what this needs")
         ->required()
         ->type_name("IMAGE.exr");
+    verb.add_flag("--best", options.best, "take four times as long for a little less error");
     add_png(verb, options.png, "the PNG has the picture's alpha, where that has one (A)");
     add_output(verb, options.output, "file of the new picture (default: x.clean.exr, beside x.exr)");
-    add_examples(verb, {"lightnet clean cornell.exr", "lightnet clean cornell.exr -o quiet.exr"});
+    add_examples(verb, {"lightnet clean cornell.exr", "lightnet clean cornell.exr --best -o quiet.exr"});
 }
 
 Picture noisy_picture(const std::string& file) {
@@ -54,10 +57,10 @@ int clean_file(const CleanOptions& options, const Launcher& launcher) {
     if (std::filesystem::equivalent(options.picture, output, not_there))
         throw UserError({output, 0}, "is the noisy picture, and would be lost: choose another --output");
     check_output(output);
-    const Picture noisy = noisy_picture(options.picture);
+    Picture noisy = noisy_picture(options.picture);
     const PictureLock lock(output);
     const auto begun = std::chrono::steady_clock::now();
-    const Cleaned cleaned = clean(noisy);
+    const Cleaned cleaned = clean(std::move(noisy), options.best ? CleanQuality::best : CleanQuality::usual);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun;
     for (const auto& lack : cleaned.lacks) launcher.err << options.picture << ": " << lack << '\n';
     const auto png = png_beside(output);

@@ -3,22 +3,30 @@
 
 #include <vector>
 
+#include "core/film/clean/choice.hpp"
 #include "core/film/clean/guide.hpp"
-#include "core/film/clean/local_fit.hpp"
 #include "core/film/picture.hpp"
 
 namespace lightnet::cleaning {
 
-/// What a pixel is expected to be off by, squared, in parts of value² + 0.01, over its surroundings: all of it, which
-/// is known so roughly that it may be below 0, and what of it is noise that was left.
-struct SquaredError {
-    float all = 0, variance = 0;
+/// What is cleaned.
+struct Noisy {
+    const Picture& picture;
+    std::vector<const PictureLayer*> halves;  // of its layers, in the same order; empty: there are none
+    Guide guide;
+    std::uint32_t step = 0;  // pixels from a centre of regression to the next, in the whole picture
 };
 
-/// Makes what is cleaned of an area's core: the area that begins `rim` to the left of and above `core`. Writes the
-/// pixels of that core to all layers of `clean`, and their expected errors; others may be written meanwhile. `halves`:
-/// of the layers of `noisy`, in the same order; null: there are none. Scratch of some MB for each layer is its own.
-void clean_area(const Picture& noisy, const std::vector<const PictureLayer*>& halves, const Guide& guide, Place core,
-                Picture& clean, std::vector<SquaredError>& expected);
+/// What is clean of a picture: the core of an area, as far as it is in the picture.
+struct CleanArea {
+    Place place;
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::vector<Rgb>> layers;  // of the beauty, where the picture has no layers; row by row
+    std::vector<SquaredError> expected;
+};
+
+/// Makes the core of the area that begins `rim` to the left of and above `core`. Depends on nothing but pixels up to
+/// `rim` + `halo` around it. Scratch of some MB, and of 1 MB for each layer, is its own.
+CleanArea clean_area(const Noisy& noisy, Place core);
 
 }  // namespace lightnet::cleaning

@@ -8,14 +8,15 @@
 
 #include "core/film/clean/area.hpp"
 #include "core/film/clean/guide.hpp"
-#include "core/film/clean/pair_weights.hpp"
 #include "core/film/clean/pieces.hpp"
 #include "core/film/clean_layers.hpp"
 
 namespace lightnet {
 namespace {
 
+using cleaning::CleanArea;
 using cleaning::Guide;
+using cleaning::Noisy;
 
 // Of each layer; none, where some have none.
 std::vector<const PictureLayer*> halves_of(const Picture& picture) {
@@ -27,45 +28,41 @@ std::vector<const PictureLayer*> halves_of(const Picture& picture) {
     return halves;
 }
 
-// All but pixels that are made anew.
-Picture frame_of(const Picture& noisy) {
-    Picture clean{noisy.width, noisy.height, {}, {}, noisy.x, noisy.y, noisy.whole_width, noisy.whole_height};
-    clean.samples = noisy.samples, clean.mattes = noisy.mattes, clean.alpha = noisy.alpha;
-    clean.notes = noisy.notes, clean.storage = noisy.storage, clean.done = noisy.done;
-    for (const auto& layer : noisy.shown)
-        if (!cleaning::is_for_cleaning(layer.name)) clean.shown.push_back(layer);
-    for (const auto& layer : noisy.layers)
-        clean.layers.push_back({layer.name, std::vector<Rgb>(layer.pixels.size()), layer.gain});
-    if (clean.layers.empty()) clean.beauty.resize(noisy.beauty.size());
-    return clean;
+// What was only there for cleaning.
+void drop_what_is_used_up(Picture& picture) {
+    std::erase_if(picture.shown, [](const auto& layer) { return cleaning::is_for_cleaning(layer.name); });
 }
 
 // For the header of its file: what was done, and by what.
-std::string words_for(const Guide& guide) {
+std::string words_for(const Noisy& noisy) {
     return fmt::format(
-        "first-order regression of all layers with the same weights, by {} and {} features; neighbours up to {} pixels "
-        "away, alike within {} and {} deviations of the noise",
-        guide.halves ? "halves of the samples" : "noise that neighbours tell of", guide.features.size(),
-        cleaning::reach, cleaning::tolerance[0], cleaning::tolerance[1]);
+        "first-order regressions of all layers with the same weights, by {} and {} features, every {} pixels; "
+        "neighbours up to {} pixels away, alike within {} and {} deviations of the noise",
+        noisy.guide.halves ? "halves of the samples" : "noise that neighbours tell of", noisy.guide.features.size(),
+        noisy.step, cleaning::reach, cleaning::tolerance[0], cleaning::tolerance[1]);
 }
 
-// Over more pixels than choices are made by: the product of two halves' changes is nearly all noise.
+// Over more pixels than choices are made by, as the product of two halves' changes is nearly all noise. Of what it says
+// beyond the noise that was left, as much counts as is likely to be there (James and Stein's way).
 PictureLayer error_layer(const std::vector<cleaning::SquaredError>& expected, std::uint32_t width,
                          std::uint32_t height) {
     constexpr std::uint32_t radius = 12;
-    cleaning::Sheet all(width, height), variance(width, height);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) {
-            const auto& found = expected[std::size_t{y} * width + x];
-            *all.at(x, y) = found.all, *variance.at(x, y) = found.variance;
-        }
-    all = cleaning::smoothed(all, width, height, radius),
-    variance = cleaning::smoothed(variance, width, height, radius);
+    constexpr float pixels = (2 * radius + 1) * (2 * radius + 1);
+    const auto smooth = [&](float cleaning::SquaredError::*part) {
+        cleaning::Sheet sheet(width, height);
+        for (std::uint32_t y = 0; y < height; ++y)
+            for (std::uint32_t x = 0; x < width; ++x) *sheet.at(x, y) = expected[std::size_t{y} * width + x].*part;
+        return cleaning::smoothed(sheet, width, height, radius);
+    };
+    const auto all = smooth(&cleaning::SquaredError::all), variance = smooth(&cleaning::SquaredError::variance),
+               spread = smooth(&cleaning::SquaredError::spread);
     PictureLayer layer{"clean_error", {}};
     layer.pixels.reserve(expected.size());
     for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x) {
-            const float error = std::sqrt(std::max(*variance.at(x, y), *all.at(x, y)));
+            const float noise = *variance.at(x, y), rest = std::max(0.0f, *all.at(x, y) - noise);
+            const float likely = std::max(0.0f, 1 - *spread.at(x, y) / (pixels * rest * rest + 1e-20f));
+            const float error = std::sqrt(noise + likely * rest);
             layer.pixels.push_back({error, error, error});
         }
     return layer;
@@ -79,30 +76,63 @@ std::vector<std::string> lacks_of(const Guide& guide) {
     return lacks;
 }
 
+// So many areas that all cores are busy, and few enough for what is clean of them to be held beside the picture.
+constexpr std::size_t areas_at_once = 64;
+
+void put_into(Picture& picture, std::vector<cleaning::SquaredError>& expected, const CleanArea& area) {
+    for (std::size_t y = 0; y < area.height; ++y) {
+        const std::size_t from = y * area.width, to = (static_cast<std::size_t>(area.place.y) + y) * picture.width +
+                                                      static_cast<std::size_t>(area.place.x);
+        std::copy_n(area.expected.begin() + from, area.width, expected.begin() + to);
+        for (std::size_t l = 0; l < area.layers.size(); ++l)
+            std::copy_n(area.layers[l].begin() + from, area.width,
+                        (picture.layers.empty() ? picture.beauty : picture.layers[l].pixels).begin() + to);
+    }
+}
+
+// In place, some rows of areas after the others: pixels are still noisy when the rows below look at them.
+std::vector<cleaning::SquaredError> clean_areas(Picture& picture, const Noisy& noisy) {
+    std::vector<cleaning::SquaredError> expected(std::size_t{picture.width} * picture.height);
+    const std::size_t across = (picture.width + cleaning::core_side - 1) / cleaning::core_side;
+    const std::size_t down = (picture.height + cleaning::core_side - 1) / cleaning::core_side;
+    const std::size_t rows = (areas_at_once + across - 1) / across;
+    static_assert(cleaning::core_side > cleaning::rim + cleaning::halo, "areas look no further than the next row");
+    std::vector<CleanArea> last;
+    for (std::size_t row = 0; row < down; row += rows) {
+        std::vector<CleanArea> now(std::min(rows, down - row) * across);
+        cleaning::in_large_pieces(
+            now.size(),
+            [&](std::size_t first, std::size_t end) {
+                for (std::size_t i = first; i < end; ++i)
+                    now[i] = clean_area(noisy, {std::int64_t(i % across * cleaning::core_side),
+                                                std::int64_t((row + i / across) * cleaning::core_side)});
+            },
+            1);
+        for (const auto& area : last) put_into(picture, expected, area);
+        last = std::move(now);
+    }
+    for (const auto& area : last) put_into(picture, expected, area);
+    return expected;
+}
+
 }  // namespace
 
 // DECISIONS: one-set-of-weights
-Cleaned clean(const Picture& noisy) {
-    Cleaned cleaned{frame_of(noisy), {}};
-    const Guide guide = cleaning::guide_of(noisy);
-    cleaned.lacks = lacks_of(guide);
+// DECISIONS: fitted-at-centres
+Cleaned clean(Picture picture, CleanQuality quality) {
+    Cleaned cleaned{std::move(picture), {}};
+    Picture& noisy = cleaned.picture;
+    if (!noisy.layers.empty()) noisy.beauty = {};  // it is made anew
+    noisy.overflowed = 0;
+    Guide guide = cleaning::take_guide(noisy);
     const auto halves = guide.halves ? halves_of(noisy) : std::vector<const PictureLayer*>{};
-    std::vector<cleaning::SquaredError> expected(noisy.beauty.size());
-    const std::size_t across = (noisy.width + cleaning::core_side - 1) / cleaning::core_side;
-    const std::size_t down = (noisy.height + cleaning::core_side - 1) / cleaning::core_side;
-    cleaning::in_large_pieces(
-        across * down,
-        [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i)
-                cleaning::clean_area(
-                    noisy, halves, guide,
-                    {std::int64_t(i % across * cleaning::core_side), std::int64_t(i / across * cleaning::core_side)},
-                    cleaned.picture, expected);
-        },
-        1);
-    if (guide.halves) cleaned.picture.shown.push_back(error_layer(expected, noisy.width, noisy.height));
-    cleaned.picture.notes.texts[cleaned_note] = words_for(guide);
-    if (!cleaned.picture.layers.empty()) blacken_overflow(cleaned.picture);
+    const Noisy work{noisy, halves, std::move(guide), quality == CleanQuality::best ? 2u : 4u};
+    cleaned.lacks = lacks_of(work.guide);
+    const auto expected = clean_areas(noisy, work);
+    drop_what_is_used_up(noisy);
+    if (work.guide.halves) noisy.shown.push_back(error_layer(expected, noisy.width, noisy.height));
+    noisy.notes.texts[cleaned_note] = words_for(work);
+    if (!noisy.layers.empty()) blacken_overflow(noisy);
     return cleaned;
 }
 

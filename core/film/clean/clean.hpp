@@ -14,6 +14,9 @@ struct Cleaned {
     std::vector<std::string> lacks;  // what would have made it better, one sentence each
 };
 
+/// How much time is taken: at best, centres are twice as near to each other, which takes four times as long.
+enum class CleanQuality { usual, best };
+
 /// The note of a cleaned picture, an attribute of its file: what was done.
 inline constexpr const char* cleaned_note = "cleaned";
 
@@ -23,11 +26,14 @@ inline constexpr const char* cleaned_note = "cleaned";
 /// features are left out, "clean_error" is added: how much the sum without gains is expected to be off by around a
 /// pixel, in parts of the root of value² + 0.01 (root mean square; where the samples are in two halves).
 ///
-/// Of each half of the samples a first-order regression on features is made, by weights of non-local means from the
-/// other half (Bitterli et al. 2016), once with strict and once with lax weights. Which of them, or of nothing at all,
-/// is taken where is decided by how far each is from the other half (Rousselle et al. 2012), smoothed.
+/// Of each half of the samples first-order regressions on features are made, by weights of non-local means from the
+/// other half (Bitterli et al. 2016), around centres some pixels apart; a pixel's value is the weighted mean of what
+/// the planes around it say (Moon et al. 2015, "Adaptive Rendering with Linear Predictions"). That is done with strict
+/// and with lax weights. Which of them, or of nothing at all, is taken where is decided by how far each is from the
+/// other half (Rousselle et al. 2012), smoothed.
 ///
-/// On all cores, with the same bytes on any number of them, and on any machine. A crop is cleaned by what is in it.
-Cleaned clean(const Picture& noisy);
+/// On all cores, with the same bytes on any number of them, and on any machine. A crop is cleaned by what is in it. The
+/// picture is cleaned in place: beside it there are some 130 bytes for each pixel, whatever the number of layers.
+Cleaned clean(Picture picture, CleanQuality quality = CleanQuality::usual);
 
 }  // namespace lightnet

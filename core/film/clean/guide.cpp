@@ -44,7 +44,7 @@ const PictureLayer* layer_called(const std::vector<PictureLayer>& layers, const 
 
 // The sum of the layers, without gains; none: some have no half.
 std::optional<std::vector<Rgb>> second_half(const Picture& picture) {
-    std::vector<Rgb> sum(picture.beauty.size());
+    std::vector<Rgb> sum(std::size_t{picture.width} * picture.height);
     bool differ = false;
     for (const auto& layer : picture.layers) {
         const auto* half = layer_called(picture.shown, half_of(layer.name));
@@ -60,7 +60,7 @@ std::optional<std::vector<Rgb>> second_half(const Picture& picture) {
 
 std::vector<Rgb> without_gains(const Picture& picture) {
     if (picture.layers.empty()) return picture.beauty;
-    std::vector<Rgb> sum(picture.beauty.size());
+    std::vector<Rgb> sum(std::size_t{picture.width} * picture.height);
     for (const auto& layer : picture.layers)
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += layer.pixels[i];
     return sum;
@@ -91,9 +91,9 @@ Sheet variance_by_neighbours(const Sheet& sheet, std::uint32_t width, std::uint3
     return smoothed(squares, width, height, 2);
 }
 
-constexpr std::int64_t feature_reach = 2;  // pixels to each side over which a feature's noise is taken away
+constexpr std::int64_t feature_reach = 1;  // pixels to each side over which a feature's noise is taken away
 
-/// Non-local means of the channels of a feature over 5 × 5 pixels, of some rows of one half, by the weights of the
+/// Non-local means of the channels of a feature over 3 × 3 pixels, of some rows of one half, by the weights of the
 /// other (Rousselle et al. 2012, eq. 4, with neighbourhoods of 3 × 3).
 struct FeatureRows {
     struct Channel {
@@ -251,31 +251,43 @@ void add_features(const Picture& picture, Guide& guide) {
     }
 }
 
-}  // namespace
+// Of the mean of 3 x 3 pixels of one half, from what it is for single ones over more of them.
+Sheet variance_of_means(const InHalves& halves, bool differ, std::uint32_t width, std::uint32_t height) {
+    Sheet variance =
+        differ ? variance_between(halves, width, height, 3) : variance_by_neighbours(halves.first, width, height);
+    variance.scale(1.0f / 9);
+    return variance;
+}
 
-Guide guide_of(const Picture& picture) {
-    Guide guide;
-    const std::uint32_t width = guide.width = picture.width, height = guide.height = picture.height;
+void add_colours(const Picture& picture, Guide& guide) {
+    const std::uint32_t width = guide.width, height = guide.height;
     const auto whole = without_gains(picture);
     const auto second = second_half(picture);
     guide.halves = second.has_value();
     for (std::size_t c = 0; c < 3; ++c) {
         const auto all = [&](std::size_t i) { return channel_of(whole[i], c); };
-        InHalves halves{sheet_of(width, height, [&](std::size_t i) { return sound(all(i)); }), {}};
-        if (second) {
-            const auto part = [&](std::size_t i) { return channel_of((*second)[i], c); };
-            halves.first = sheet_of(width, height, [&](std::size_t i) { return sound(2 * (all(i) - part(i))); });
-            halves.second = sheet_of(width, height, [&](std::size_t i) { return sound(2 * part(i)); });
-            guide.variance[c] = variance_between(halves, width, height, 1);
-        } else {
-            halves.second = halves.first;
-            guide.variance[c] = variance_by_neighbours(halves.first, width, height);
-        }
+        const auto part = [&](std::size_t i) { return second ? channel_of((*second)[i], c) : 0.5f * all(i); };
+        InHalves halves{sheet_of(width, height, [&](std::size_t i) { return sound(2 * (all(i) - part(i))); }),
+                        sheet_of(width, height, [&](std::size_t i) { return sound(2 * part(i)); })};
+        guide.variance[c] = variance_of_means(halves, guide.halves, width, height);
+        guide.means[0][c] = smoothed(halves.first, width, height, 1);
+        guide.means[1][c] = smoothed(halves.second, width, height, 1);
         guide.half[0][c] = std::move(halves.first), guide.half[1][c] = std::move(halves.second);
     }
-    guide.inside = Sheet(width, height);
-    for (std::uint32_t y = 0; y < height; ++y) std::fill_n(guide.inside.at(0, y), width, 1.0f);
+}
+
+}  // namespace
+
+Guide take_guide(Picture& picture) {
+    Guide guide;
+    guide.width = picture.width, guide.height = picture.height;
+    guide.inside = Sheet(guide.width, guide.height);
+    for (std::uint32_t y = 0; y < guide.height; ++y) std::fill_n(guide.inside.at(0, y), guide.width, 1.0f);
     add_features(picture, guide);
+    for (const auto& name : feature_layers())
+        std::erase_if(picture.shown,
+                      [&](const auto& layer) { return layer.name == name || layer.name == half_of(name); });
+    add_colours(picture, guide);
     return guide;
 }
 

@@ -23,15 +23,16 @@ inline constexpr std::size_t most_features = 7;
 /// All that weights are made from. Gains are not among it, so weights know of none. A value; read by all threads.
 struct Guide {
     std::uint32_t width = 0, height = 0;
-    bool halves = false;          // the samples were in two halves; else both are the whole picture
-    std::array<Colours, 2> half;  // the sum of the layers, without gains
-    Colours variance;             // of the mean of one half
+    bool halves = false;           // the samples were in two halves; else both are the whole picture
+    std::array<Colours, 2> half;   // the sum of the layers, without gains
+    std::array<Colours, 2> means;  // of 3 x 3 pixels of each half
+    Colours variance;              // of such a mean
     std::vector<Feature> features;
     Sheet inside;  // 1 in the picture, 0 beyond
 };
 
-/// Of a picture as the film gives it. What is no number, or more than weights can be made of, counts as 0 or as the
-/// largest.
-Guide guide_of(const Picture& picture);
+/// Of a picture as the film gives it; its beauty may be missing where it has layers. What is no number, or more than
+/// weights can be made of, counts as 0 or as the largest. Features that are there for cleaning are used up.
+Guide take_guide(Picture& picture);
 
 }  // namespace lightnet::cleaning

@@ -9,17 +9,21 @@
 namespace lightnet::cleaning {
 
 /// What is worked on at once has this many pixels along a side. The outermost of them serve the others only.
-inline constexpr std::uint32_t area_side = 128;
-/// So many around each area are seen by its own, by the widest of the filters.
+inline constexpr std::uint32_t area_side = 160;
+/// So far a regression looks from its centre, and serves pixels.
 inline constexpr std::uint32_t reach = 6;
-/// Neighbourhoods of 2 × 2 + 1 pixels along a side are compared with each other.
-inline constexpr std::uint32_t patch = 2;
-/// Estimates of the error are taken over so many pixels to each side, and choices smoothed over so many.
-inline constexpr std::uint32_t error_radius = 4, choice_radius = 2;
+/// Colours are compared at pixels and so far to their sides.
+inline constexpr std::uint32_t patch = 1;
+/// Choices are smoothed over so many pixels to each side.
+inline constexpr std::uint32_t choice_radius = 2;
+/// Estimates of the error are taken over so many: all regressions that see a firefly then know what it costs to leave.
+inline constexpr std::uint32_t error_radius = reach + choice_radius;
 /// Pixels of an area that serve the others, to each side; what is left of it.
-inline constexpr std::uint32_t rim = error_radius + choice_radius, core_side = area_side - 2 * rim;
+inline constexpr std::uint32_t rim = reach + error_radius + choice_radius, core_side = area_side - 2 * rim;
+/// So far around an area its regressions look: they reach into it from outside, and look as far beyond.
+inline constexpr std::uint32_t halo = 2 * reach + 4;
 /// Around a picture, whose sides are taken up to whole cores.
-inline constexpr std::uint32_t margin = reach + patch + rim;
+inline constexpr std::uint32_t margin = halo + patch + rim;
 
 /// Where an area begins, in pixels of the picture; may lie outside of it.
 struct Place {
@@ -37,6 +41,9 @@ public:
     const float* at(std::int64_t x, std::int64_t y) const { return values_.data() + index(x, y); }
     std::size_t stride() const { return stride_; }
 
+    void scale(float factor) {
+        for (float& value : values_) value *= factor;
+    }
     /// Beyond the edges of a picture of that size, its outermost pixels go on.
     void extend(std::uint32_t width, std::uint32_t height);
 

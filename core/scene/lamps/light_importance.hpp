@@ -1,30 +1,9 @@
 // Bounds of the light that comes to a point from lights known by their bounds: eight of either at once.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-
-// How vectors are handed over depends on the processor that is compiled for. Here nothing is: all is inlined.
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "core/base/math/eight.hpp"
 
 namespace lightnet {
-
-// The compiler's own vectors: it would not make any of loops with so many conditions.
-using Eight = float __attribute__((vector_size(32)));
-using Mask = std::int32_t __attribute__((vector_size(32)));
-
-[[gnu::always_inline]] inline Eight select(const Mask& mask, const Eight& a, const Eight& b) {
-    return (Eight)((mask & (Mask)a) | (~mask & (Mask)b));
-}
-[[gnu::always_inline]] inline Eight greater_of(const Eight& a, const Eight& b) { return select(a > b, a, b); }
-[[gnu::always_inline]] inline Eight all_of(float x) { return Eight{x, x, x, x, x, x, x, x}; }
-[[gnu::always_inline]] inline Mask all_of(std::int32_t x) { return Mask{x, x, x, x, x, x, x, x}; }
-[[gnu::always_inline]] inline Eight magnitude(const Eight& a) { return (Eight)((Mask)a & 0x7fffffff); }
-[[gnu::always_inline]] inline Eight root(const Eight& a) {
-    Eight roots;
-    for (std::uint32_t i = 0; i < 8; ++i) roots[i] = std::sqrt(a[i]);
-    return roots;
-}
 
 /// The cosine and the sine of an angle, times a distance.
 struct Turn {
