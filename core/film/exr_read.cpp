@@ -89,16 +89,19 @@ std::string letters_of(const Imf::ChannelList& channels, const std::string& laye
     return usual_letters;
 }
 
-// One layer; fails if the file lacks a channel of it. A depth is grey.
-std::vector<Rgb> read_layer(Imf::InputFile& file, const std::string& layer, const std::string& letters) {
-    Wanted wanted(file);
+// The pixels of a layer, which come with read(); fails if the file lacks a channel of it.
+std::vector<Rgb> wanted_layer(Wanted& wanted, const std::string& layer, const std::string& letters) {
     std::vector<Rgb> pixels(wanted.pixels());
     for_channels(channels_of(layer, letters), pixels,
                  [&](const std::string& name, const float* first) { wanted.add(name, first, sizeof(Rgb)); });
-    wanted.read();
-    if (letters == letters_of_depths)
-        for (Rgb& pixel : pixels) pixel = {pixel.r, pixel.r, pixel.r};
     return pixels;
+}
+
+// A depth is grey.
+void make_depths_grey(std::vector<PictureLayer>& layers) {
+    for (auto& layer : layers)
+        if (layer.letters == letters_of_depths)
+            for (Rgb& pixel : layer.pixels) pixel = {pixel.r, pixel.r, pixel.r};
 }
 
 // Empty: the file has no such channel.
@@ -196,16 +199,21 @@ Picture read_exr(const std::filesystem::path& path) try {
     expect_pixels(window, path);
     Picture picture{static_cast<std::uint32_t>(window.max.x - window.min.x + 1),
                     static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
-                    read_layer(file, "", usual_letters),
+                    {},
                     {}};
+    Wanted wanted(file);  // all at once: each reading of a file unpacks all of it
+    picture.beauty = wanted_layer(wanted, "", usual_letters);
     for (auto [attribute, layers] : {std::pair(layers_attribute, &picture.layers), {shown_attribute, &picture.shown}})
         if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(attribute))
             for (const auto& name : names->value()) {
                 if (std::any_of(layers->begin(), layers->end(), [&](const auto& known) { return known.name == name; }))
                     throw Error(path.string(), "is damaged: it names layer " + name + " twice");
                 const auto letters = letters_of(file.header().channels(), name);
-                layers->push_back({name, read_layer(file, name, letters), {1, 1, 1}, letters});
+                layers->push_back({name, wanted_layer(wanted, name, letters), {1, 1, 1}, letters});
             }
+    wanted.read();
+    make_depths_grey(picture.layers);
+    make_depths_grey(picture.shown);
     read_gains(file.header(), picture.layers);
     picture.samples = read_channel(file, samples_channel);
     picture.alpha = read_channel(file, alpha_channel);

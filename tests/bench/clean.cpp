@@ -1,6 +1,7 @@
 // What cleaning brings: pictures of scenes with references by path tracing, noisy and cleaned, at several numbers of
 // samples and with three seeds. Errors are relative squares (compare.hpp) less the reference's own noise, and FLIP.
-// Arguments: names of scenes; without any, all of them. LIGHTNET_BENCH_SAMPLES: "4,32" instead of 4, 16, 32 and 128.
+// Arguments: names of scenes; without any, all of them. LIGHTNET_BENCH_SAMPLES: "4,32" instead of 4, 16, 32 and 128; of
+// 1024, if it is among them, is judged that cleaning does no harm.
 // A row ends in what path tracing alone would have to spend for the cleaned error, as that falls like 1 / samples.
 #include <algorithm>
 #include <chrono>
@@ -28,6 +29,8 @@ const int seeds = repeated(3);
 constexpr int judged = 32;        // samples, at which goals are stated
 constexpr double times_less = 6;  // the relative square error of the median scene: by so much, at least
 constexpr double most_shift = 3e-3;
+constexpr int many = 1024;  // samples, at which nothing may get worse
+constexpr double most_harm = 1.02;
 
 std::vector<int> sample_counts() {
     if (smoke()) return {4};
@@ -53,7 +56,7 @@ Errors errors_of(const Picture& reference, const Picture& picture, double noise)
 
 /// One number of samples of one scene, by seed.
 struct Row {
-    std::vector<double> noisy, cleaned, noisy_flip, cleaned_flip, noisy_shift, cleaned_shift, seconds, expected;
+    std::vector<double> noisy, cleaned, noisy_flip, cleaned_flip, noisy_shift, cleaned_shift, seconds, expected, wrong;
     void add(const Errors& before, const Errors& after) {
         noisy.push_back(before.square), cleaned.push_back(after.square);
         noisy_flip.push_back(before.flip), cleaned_flip.push_back(after.flip);
@@ -86,6 +89,14 @@ Picture rendered(const SceneFiles& files, const Picture& reference, int samples,
     return read_exr(out);
 }
 
+// Pixels whose beauty is not the float32 sum of the layers, each times its gain.
+double wrong_sums(const Picture& cleaned) {
+    double wrong = 0;
+    const auto sums = sum_of(cleaned.layers);
+    for (std::size_t i = 0; i < sums.size(); ++i) wrong += sums[i] != cleaned.beauty[i];
+    return wrong;
+}
+
 Row measured(const ReferenceScene& scene, const SceneFiles& files, const Picture& reference, int samples) {
     Row row;
     for (int seed = 1; seed <= seeds; ++seed) {
@@ -97,6 +108,7 @@ Row measured(const ReferenceScene& scene, const SceneFiles& files, const Picture
         if (smoke()) continue;
         const Errors after = errors_of(reference, cleaned.picture, scene.noise);
         row.add(errors_of(reference, noisy, scene.noise), after);
+        row.wrong.push_back(wrong_sums(cleaned.picture));
         row.expected.push_back(told_by(cleaned.picture, after.square));
     }
     return row;
@@ -104,7 +116,7 @@ Row measured(const ReferenceScene& scene, const SceneFiles& files, const Picture
 
 /// For the judgement over all scenes.
 struct Judged {
-    std::vector<double> times, flips, shifts;
+    std::vector<double> times, flips, shifts, harms, sums;
 };
 
 void measure(const ReferenceScene& scene, Judged& all) {
@@ -124,6 +136,8 @@ void measure(const ReferenceScene& scene, Judged& all) {
             median(row.noisy_flip), median(row.cleaned_flip), 100 * median(row.noisy_shift),
             100 * median(row.cleaned_shift), median(row.expected), median(row.seconds));
         std::fflush(stdout);
+        all.sums.insert(all.sums.end(), row.wrong.begin(), row.wrong.end());
+        if (samples == many) all.harms.push_back(median(row.cleaned) / median(row.noisy));
         if (samples != judged) continue;
         all.times.push_back(row.times());
         all.flips.push_back(median(row.cleaned_flip) / median(row.noisy_flip));
@@ -132,13 +146,19 @@ void measure(const ReferenceScene& scene, Judged& all) {
 }
 
 void judge(const Judged& all) {
-    if (smoke() || all.times.empty()) return;
+    if (smoke() || all.sums.empty()) return;
+    const auto greatest = [](const std::vector<double>& of) {
+        return std::vector{*std::max_element(of.begin(), of.end())};
+    };
+    quantity("clean.wrong_sums", greatest(all.sums), "pixels", 0, false);
+    if (!all.harms.empty())
+        quantity("clean.harm", greatest(all.harms), "times the error at 1024 samples", most_harm, false);
+    if (all.times.empty()) return;
     quantity("clean.times_less", all.times, "relative square error at 32 samples, by scene", times_less, true);
     quantity("clean.worst_scene", {*std::min_element(all.times.begin(), all.times.end())}, "times less", 1 / 1.05,
              true);
-    quantity("clean.worst_flip", {*std::max_element(all.flips.begin(), all.flips.end())}, "of the noisy picture's", 1,
-             false);
-    figure("clean.mean_shift", {*std::max_element(all.shifts.begin(), all.shifts.end())}, most_shift, false);
+    quantity("clean.worst_flip", greatest(all.flips), "of the noisy picture's", 1, false);
+    figure("clean.mean_shift", greatest(all.shifts), most_shift, false);
 }
 
 void measure_all(const std::vector<std::string>& names) {

@@ -187,6 +187,19 @@ TEST(Clean, SaysWhatIsLacking) {
     EXPECT_THAT(clean(noisy).lacks, testing::ElementsAre(testing::HasSubstr("halves")));
 }
 
+TEST(Clean, SaysOfACropThatItsBorderDiffers) {
+    Picture whole = rendered(20, 20, {{"direct", ramp}}, 0.2f);
+    show(whole, "clean_albedo", checks);
+    EXPECT_THAT(clean(whole).lacks, testing::IsEmpty());
+    whole.x = 30, whole.whole_width = 64, whole.whole_height = 20;
+    EXPECT_THAT(clean(whole).lacks, testing::ElementsAre(testing::HasSubstr("border")));
+}
+
+TEST(Clean, FitsMorePlanesAtBest) {
+    const Picture noisy = rendered(96, 64, {{"direct", step}}, 0.4f), truth = true_picture(96, 64, step);
+    EXPECT_LT(error_of(clean(noisy, CleanQuality::best).picture, truth), error_of(clean(noisy).picture, truth));
+}
+
 TEST(Clean, OfPicturesWithoutHalvesTakesNoiseOutToo) {
     Picture noisy = rendered(80, 80, {{"direct", ramp}}, 0.3f);
     const Picture truth = true_picture(80, 80, ramp);

@@ -49,5 +49,23 @@ TEST(SurfaceFeature, TellsThroughMirrorsByWhatTheyReflect) {
     EXPECT_NEAR(features.at("normal")[5].b, -0.5f, 1e-3f);
 }
 
+TEST(SurfaceFeature, TellsOfATextureBehindGlassByWhatGetsThrough) {
+    // a wall of two albedos behind a pane of a dielectric, which sends them on in proportion
+    SceneData data = wall(0.2f);
+    add(data, quad({0, -100, 0.01f}, {200, 0, 0}, {0, 200, 0}), diffuse(data, 0.8f));
+    DielectricMaterial pane;
+    pane.thin = true;
+    add(data, quad({-100, -100, 1}, {200, 0, 0}, {0, 200, 0}), material(data, pane));
+    SmallNetwork network(std::move(data), 8, 8);
+    network.add("albedo", "SurfaceFeature", {}, {{"of", Value{std::string("albedo")}}});
+    network.add("direct", "DirectLighting").lit_by("direct").show({"albedo"});
+    const auto albedo = network.pictures(64).at("albedo");
+    double left = 0, right = 0;
+    for (std::size_t y = 0; y < 8; ++y) left += albedo[8 * y + 1].g / 8, right += albedo[8 * y + 6].g / 8;
+    EXPECT_GT(left, 0.2 * 0.7);
+    EXPECT_LT(left, 0.2);
+    EXPECT_NEAR(right / left, 4, 0.5);  // of binomial noise .08: 512 samples, of which a tenth is reflected
+}
+
 }  // namespace
 }  // namespace lightnet::surface_feature_test

@@ -68,8 +68,12 @@ PictureLayer error_layer(const std::vector<cleaning::SquaredError>& expected, st
     return layer;
 }
 
-std::vector<std::string> lacks_of(const Guide& guide) {
+std::vector<std::string> lacks_of(const Picture& noisy, const Guide& guide) {
     std::vector<std::string> lacks;
+    if (noisy.whole_width)
+        lacks.emplace_back(
+            fmt::format("it is a crop: up to {} pixels from its border it is not what the whole picture would be there",
+                        cleaning::influence));
     if (!guide.halves) lacks.emplace_back("its samples are not in two halves, so its noise is guessed from neighbours");
     if (guide.features.empty())
         lacks.emplace_back("it says nothing of surfaces (albedo, normal, depth), so edges and textures may blur");
@@ -127,7 +131,7 @@ Cleaned clean(Picture picture, CleanQuality quality) {
     Guide guide = cleaning::take_guide(noisy);
     const auto halves = guide.halves ? halves_of(noisy) : std::vector<const PictureLayer*>{};
     const Noisy work{noisy, halves, std::move(guide), quality == CleanQuality::best ? 2u : 4u};
-    cleaned.lacks = lacks_of(work.guide);
+    cleaned.lacks = lacks_of(noisy, work.guide);
     const auto expected = clean_areas(noisy, work);
     drop_what_is_used_up(noisy);
     if (work.guide.halves) noisy.shown.push_back(error_layer(expected, noisy.width, noisy.height));

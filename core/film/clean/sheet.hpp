@@ -22,6 +22,8 @@ inline constexpr std::uint32_t error_radius = reach + choice_radius;
 inline constexpr std::uint32_t rim = reach + error_radius + choice_radius, core_side = area_side - 2 * rim;
 /// So far around an area its regressions look: they reach into it from outside, and look as far beyond.
 inline constexpr std::uint32_t halo = 2 * reach + 4;
+/// So far away a pixel may count for another: by its choice, and what that was made from.
+inline constexpr std::uint32_t influence = rim + halo;
 /// Around a picture, whose sides are taken up to whole cores.
 inline constexpr std::uint32_t margin = halo + patch + rim;
 
