@@ -100,7 +100,7 @@ class LightnetEngine(bpy.types.RenderEngine):
             words = ["render", "scene.xml", "--lighting", file, "--samples", str(settings.samples)]
             return words + (["--clean"] if settings.clean else []) + (["--alpha"] if scene.render.film_transparent else [])
         text = graph.text_of(
-            settings.lighting, size, settings.samples, round(settings.error, 6), export.groups, facts_of(layer),
+            settings.lighting, size, settings.samples, round(settings.noise, 6), export.groups, facts_of(layer),
             2 * max(1, layer.pass_cryptomatte_depth // 2), scene.render.film_transparent, settings.clean,
         )
         with open(os.path.join(folder, "graph.lua"), "w", encoding="utf-8") as file:

@@ -23,7 +23,7 @@ facts = {"Depth": "depth", "Normal": "normal", "Position": "position", "UV": "uv
 mattes = {"CryptoObject": "object", "CryptoMaterial": "material"}
 
 
-def text_of(lighting, size, samples, error=0, groups=None, shown=(), ranks=6, transparent=False, clean=False):
+def text_of(lighting, size, samples, noise=0, groups=None, shown=(), ranks=6, transparent=False, clean=False):
     """A graph of `scene.xml` beside it. groups: names of lamps by group; shown: names of passes."""
     groups = groups if lighting in by_groups else None
     learning = size[0] * size[1] * samples // 14 + 64
@@ -38,7 +38,7 @@ def text_of(lighting, size, samples, error=0, groups=None, shown=(), ranks=6, tr
         elif name in mattes:
             lines.append(f'{name} = Cryptomatte {{ of = "{mattes[name]}", ranks = {ranks} }}')
             names.append(name)
-    more = [f"samples = {samples}"] + ([f"error = {error!r}"] if error > 0 else []) + ([on] if on else [])
+    more = [f"samples = {samples}"] + ([f"noise = {noise!r}"] if noise > 0 else []) + ([on] if on else [])
     more += [f"show = {{ {', '.join(names)} }}"] if names else []
     more += ["alpha = true", "background = false"] if transparent else []
     film = f'film = {{ {size[0]}, {size[1]}, file = "picture.exr"{", clean = true" if clean else ""} }}'

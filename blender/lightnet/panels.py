@@ -26,7 +26,7 @@ class LIGHTNET_PT_light(Panel, bpy.types.Panel):
         layout.prop(settings, "lighting")
         if settings.lighting == "file":
             layout.prop(settings, "graph")
-        for name in ("samples", "error", "seed", "clean", "layers"):
+        for name in ("samples", "noise", "seed", "clean", "layers"):
             layout.prop(settings, name)
 
 

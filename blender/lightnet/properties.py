@@ -21,9 +21,9 @@ class Settings(bpy.types.PropertyGroup):
     lighting: bpy.props.EnumProperty(name="Lighting", items=lightings, default="path")
     graph: bpy.props.StringProperty(name="Graph", subtype="FILE_PATH", description="A graph file (Lua)")
     samples: bpy.props.IntProperty(name="Samples", default=64, min=1, max=1 << 20, description="Samples per pixel")
-    error: bpy.props.FloatProperty(
+    noise: bpy.props.FloatProperty(
         name="Noise threshold", default=0, min=0, max=1, precision=3,
-        description="Parts of the picture end when their noise is below this; 0: all get all samples",
+        description="Parts of the picture end when their noise is below this, as in Cycles; 0: all get all samples",
     )
     seed: bpy.props.IntProperty(name="Seed", default=0, min=0)
     clean: bpy.props.BoolProperty(

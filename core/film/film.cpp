@@ -302,6 +302,13 @@ void Film::note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t sa
     }
 }
 
+namespace {
+
+// What a pixel whose channels add up to this has its noise compared with. Black ones are compared with a little.
+double scale_of_noise(double sum) { return 1e-4 + (sum < 1 ? std::sqrt(std::max(0.0, sum)) : sum); }
+
+}  // namespace
+
 // DECISIONS: samples-by-cell
 bool Film::enough(const Tile& cell) const {
     double sum = 0;
@@ -309,9 +316,11 @@ bool Film::enough(const Tile& cell) const {
         for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
             const auto& [mean, squares] = spreads_[index(x, y)];
             const double blocks = block_of_[index(x, y)];
-            for (int c = 0; c < 3; ++c) sum += squares[c] / (blocks * (blocks - 1)) / (mean[c] * mean[c] + 0.01);
+            double deviation = 0;
+            for (const double square : squares) deviation += std::sqrt(square / (blocks * (blocks - 1)));
+            sum += deviation / scale_of_noise(mean[0] + mean[1] + mean[2]);
         }
-    return sum <= double(format_.refinement.error) * format_.refinement.error * 3 * double(cell.pixels());
+    return sum <= double(format_.refinement.noise) * double(cell.pixels());
 }
 
 double Film::done() const {

@@ -47,7 +47,7 @@ inline constexpr std::uint32_t cell_size = 8;
 
 /// When a cell has samples enough. Decided from its own blocks alone, in the order of their index.
 struct Refinement {
-    float error = 0;          // of a cell's pixels: see Film; 0: every pixel gets all samples
+    float noise = 0;          // of a cell's pixels: see Film; 0: every pixel gets all samples
     std::uint32_t least = 0;  // samples that every pixel gets; taken up to whole blocks, and at least two
     friend bool operator==(const Refinement&, const Refinement&) = default;
 };
@@ -87,7 +87,7 @@ struct FilmFormat {
     /// It shows halves of the samples, by which a picture can be cleaned.
     bool halves() const;
     /// Samples differ from cell to cell.
-    bool adaptive() const { return refinement.error > 0; }
+    bool adaptive() const { return refinement.noise > 0; }
     /// Samples that every pixel gets.
     std::uint32_t least_samples() const;
     /// What must be rendered: the crop, and where cells decide, all of each cell that it touches, so that a pixel is
@@ -138,12 +138,14 @@ struct FilmState {
 /// The last group may be one to which a picture of more samples would add. It is kept beside the sums of the others and
 /// added for the picture only, so that such a picture can go on from what this film holds.
 ///
-/// With a refinement (adaptive sampling with a noise threshold), a cell is done when sqrt(mean(v / (m² + 0.01))) over
-/// its pixels and channels is at most the error, or when it has all samples. m is the mean of a pixel's k blocks as the
-/// picture shows it, v = Σ(b - m)² / (k (k - 1)) the variance of that mean. Blocks of a scrambled sequence complete
-/// each other, so v is rather too large than too small; what no block has found (a caustic that is met once in a
-/// thousand samples) it can't know of, and as samples decide about their own number, pixels come out too dark by a part
-/// of their error.
+/// With a refinement (adaptive sampling with a noise threshold), a cell is done when the mean of its pixels' noise is
+/// at most what is wanted, or when it has all samples. A pixel's noise is Σ√v / n(Σm) over its channels: m is the mean
+/// of its k blocks as the picture shows it, v = Σ(b - m)² / (k (k - 1)) the variance of that mean, and n(x) the root of
+/// x, or x where that is more than 1. So dark parts count as the eye sees them: Dammertz et al. 2009, "A Hierarchical
+/// Automatic Stopping Condition for Monte Carlo Global Illumination", and Cycles' threshold of that name. Blocks of a
+/// scrambled sequence complete each other, so v is rather too large than too small; what no block has found (a caustic
+/// that is met once in a thousand samples) it can't know of, and as samples decide about their own number, pixels come
+/// out too dark by a part of their error.
 class Film {
 public:
     /// Throws Error on a format without pixels, samples or layers, or with two layers of one name.

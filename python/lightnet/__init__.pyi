@@ -538,11 +538,11 @@ class RayTracer(Node):
     film: film
         width, height, and file of the image
     samples: integer, in samples, default 16.0, 1.0 … 16777216.0
-        samples per pixel; with an error: at most
-    error: number, default 0.0, 0.0 … 1.0
-        noise threshold: ends a cell of 8 x 8 pixels before it has all samples, when the root of its mean square error, each pixel relative to its value, is estimated at this; 0: never
-    least_samples: integer, in samples, default 64.0, 1.0 … 16777216.0
-        with an error: what every pixel gets, in whole blocks of 16, and at least 32
+        samples per pixel; with a noise threshold: at most
+    noise: number, default 0.0, 0.0 … 1.0
+        noise threshold: ends a cell of 8 x 8 pixels before it has all samples, when the mean error of its pixels, each relative to the square root of its brightness, is estimated at this, as in Cycles: 0.1 (drafts) … 0.001; 0: never
+    least_samples: integer, in samples, default 32.0, 1.0 … 16777216.0
+        with a noise threshold: what every pixel gets, in whole blocks of 16, and at least 32
     max_depth: integer, default 100.0, 0.0 … 255.0
         how many mirrors or panes in a row a ray is followed through
     show: list of nodes, default []
@@ -569,7 +569,7 @@ class RayTracer(Node):
         scene: Node | None = ...,
         film: Sequence[int] | Mapping[str, Any] | None = ...,
         samples: int | None = ...,
-        error: float | None = ...,
+        noise: float | None = ...,
         least_samples: int | None = ...,
         max_depth: int | None = ...,
         show: Sequence[Node] | None = ...,

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t width = 37, height = 21, samples = 16 * 40;
 
-FilmFormat format_of(float error, std::optional<Window> crop = {}) {
-    return {width, height, {"emission", "direct"}, samples, crop, {error, 64}};
+FilmFormat format_of(float noise, std::optional<Window> crop = {}) {
+    return {width, height, {"emission", "direct"}, samples, crop, {noise, 64}};
 }
 
 // What a renderer would answer. Noise grows from the left to the right; the leftmost pixels have none.
@@ -76,14 +76,54 @@ TEST(Refinement, SpendsSamplesWhereNoiseIs) {
         EXPECT_EQ(picture.samples[x], picture.samples[x / cell_size * cell_size]) << "cells of one number";
 }
 
-TEST(Refinement, ReachesItsError) {
-    const float error = 0.03f;
-    const Picture picture = finished(format_of(error), 16).picture();
+TEST(Refinement, ReachesItsThreshold) {
+    const float noise = 0.03f;  // pixels are white: relative to their brightness
+    const Picture picture = finished(format_of(noise), 16).picture();
     double sum = 0;
-    for (const Rgb& pixel : picture.beauty) sum += (pixel.r - 1.0) * (pixel.r - 1.0) / 1.01;  // two layers of 0.5
+    for (const Rgb& pixel : picture.beauty) sum += (pixel.r - 1.0) * (pixel.r - 1.0);  // two layers of 0.5
     const double squared = sum / double(picture.beauty.size());
-    EXPECT_LT(squared, 1.2 * error * error);
-    EXPECT_GT(squared, 0.2 * error * error) << "more samples than the error asks for";
+    EXPECT_LT(squared, 1.2 * noise * noise);
+    EXPECT_GT(squared, 0.2 * noise * noise) << "more samples than the threshold asks for";
+}
+
+/// A grey cell of which each sample of the first pixels lies evenly between `grey` ± `spread`, and of the others is
+/// grey.
+double samples_of_cell(float noise, float grey, float spread, std::uint32_t noisy = 64) {
+    Film film({8, 8, {"all"}, 1 << 16, {}, {noise, 32}});
+    std::mt19937 random(1);
+    const auto render = [&](const Tile& tile) {
+        std::vector<Rgb> pixels;
+        for (std::uint32_t i = 0; i < tile.pixels(); ++i) {
+            float sum = 0;
+            for (std::uint32_t s = 0; s < tile.samples; ++s)
+                sum += grey + (i < noisy ? spread * (float(random() >> 8) * 0x2p-24f - 1) : 0);
+            pixels.push_back({sum, sum, sum});
+        }
+        return pixels;
+    };
+    const auto first = tiles_of(film.format(), 8);
+    for (std::deque<Tile> wanted(first.begin(), first.end()); !wanted.empty(); wanted.pop_front()) {
+        film.add(wanted.front(), render(wanted.front()));
+        for (const Tile& more : film.more(wanted.front())) wanted.push_back(more);
+    }
+    return film.mean_samples();
+}
+
+// By hand: of n samples each channel has the deviation spread / √(3n), and the mean of its estimates, k blocks, lies
+// below by about 1 / 4k. Three channels are compared with √(3 grey), or with 3 grey where that is more than 1.
+TEST(Refinement, ComparesNoiseWithTheRootOfTheBrightness) {
+    const auto wanted = [](double noise, double spread, double scale) {
+        return std::pow(3 * spread / (noise * scale), 2) / 3;
+    };
+    EXPECT_NEAR(samples_of_cell(0.01f, 0.03f, 0.03f) / wanted(0.01, 0.03, std::sqrt(0.09)), 1, 0.06);
+    EXPECT_NEAR(samples_of_cell(0.004f, 0.12f, 0.03f) / wanted(0.004, 0.03, std::sqrt(0.36)), 1, 0.06);
+    EXPECT_NEAR(samples_of_cell(0.01f, 2, 1) / wanted(0.01, 1, 6), 1, 0.06);
+}
+
+// An eighth of them, with eight times what they may have. By their mean square they would need eight times as many.
+TEST(Refinement, IsHeldByFewPixelsAsFarAsTheyCount) {
+    const double few = samples_of_cell(0.00125f, 0.12f, 0.12f, 8), all = samples_of_cell(0.01f, 0.12f, 0.12f);
+    EXPECT_NEAR(few / all, 1, 0.2);
 }
 
 TEST(Refinement, TakesFewerSamplesThanAnEvenSpreadOfTheSameError) {
@@ -142,10 +182,10 @@ TEST(Refinement, RefusesTilesThatCutCells) {
 }
 
 TEST(Crop, HasThePixelsOfTheWholePicture) {
-    for (const float error : {0.0f, 0.03f}) {
-        const Picture whole = finished(format_of(error), 16).picture();
+    for (const float noise : {0.0f, 0.03f}) {
+        const Picture whole = finished(format_of(noise), 16).picture();
         for (const Window& window : {Window{0, 0, 37, 21}, Window{5, 3, 20, 10}, Window{36, 20, 1, 1}}) {
-            const Picture part = finished(format_of(error, window), 7).picture();
+            const Picture part = finished(format_of(noise, window), 7).picture();
             ASSERT_EQ(part.width, window.width);
             ASSERT_EQ(part.height, window.height);
             EXPECT_EQ(part.x, window.x);
@@ -154,7 +194,7 @@ TEST(Crop, HasThePixelsOfTheWholePicture) {
                 const auto j = (window.y + i / window.width) * width + window.x + i % window.width;
                 EXPECT_EQ(part.beauty[i], whole.beauty[j]);
                 EXPECT_EQ(part.layers[1].pixels[i], whole.layers[1].pixels[j]);
-                ASSERT_EQ(part.samples.empty(), error == 0);
+                ASSERT_EQ(part.samples.empty(), noise == 0);
                 if (!part.samples.empty()) {
                     EXPECT_EQ(part.samples[i], whole.samples[j]);
                 }

@@ -43,6 +43,7 @@ struct PictureCrop {
 /// What stands in place of what the graph says of its picture. What wasn't given is absent.
 struct PictureOptions {
     std::optional<std::uint32_t> samples;  // per pixel
+    std::optional<double> noise;           // threshold
     std::optional<PictureSize> size;
     std::optional<PictureCrop> crop;
     std::string camera;       // of the scene's file, name or number; "": as the graph says
@@ -74,7 +75,7 @@ struct RunningOptions : RunSettings {
 
 void add_graph(CLI::App& verb, GraphOptions& graph);
 void add_constants(CLI::App& verb, std::map<std::string, std::string>& constants, const char* help);
-/// --samples, --size and --crop.
+/// --samples, --noise, --size and --crop.
 void add_picture(CLI::App& verb, PictureOptions& picture);
 /// --clean
 void add_clean(CLI::App& verb, PictureOptions& picture);

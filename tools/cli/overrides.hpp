@@ -9,8 +9,8 @@
 
 namespace lightnet {
 
-/// Writes --samples, --size, --crop, --gain, --clean, --alpha and --compression into the renderers of an unchecked
-/// graph, and --camera into its scenes.
+/// Writes --samples, --noise, --size, --crop, --gain, --clean, --alpha and --compression into the renderers of an
+/// unchecked graph, and --camera into its scenes.
 void override_picture(Graph& graph, const Registry& registry, const PictureOptions& wanted);
 
 /// "shot" of a graph "…/shot.lua", "stdin" of one that comes from standard input: what its pictures are called.

@@ -54,6 +54,11 @@ std::optional<PictureCrop> crop_of(std::string_view text) {
 void add_picture(CLI::App& verb, PictureOptions& picture) {
     takes_numbers(verb.add_option("--samples", picture.samples, "samples per pixel, instead of the graph's"), "N", 1,
                   std::numeric_limits<std::uint32_t>::max());
+    verb.add_option("--noise", picture.noise,
+                    "end parts of the picture whose noise is this, before they have all samples: a threshold as in "
+                    "Cycles, like 0.05, instead of the graph's; 0: none")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0));
     verb.add_option_function<std::string>(
             "--size", [&picture](const std::string& text) { picture.size = size_of(text); },
             "size of the picture, instead of the graph's")

@@ -21,7 +21,7 @@ std::string text_of_light(Graph graph, const Registry& registry) {
         const Kind* kind = registry.find(node.kind);
         if (kind->role != Role::image) continue;
         for (const auto& param : kind->params)
-            if (param.type == ParamType::film || param.name == "samples" || param.name == "error")
+            if (param.type == ParamType::film || param.name == "samples" || param.name == "noise")
                 node.params.erase(param.name);
     }
     return to_json(graph);
@@ -41,7 +41,7 @@ std::map<std::string, std::string> picture_recipe(const Job& job, const Registry
             {"seed", std::to_string(job.seed)},
             {"size", fmt::format("{}x{}", format.width, format.height)},
             {"crop", fmt::format("{},{},{},{}", crop.x, crop.y, crop.x + crop.width, crop.y + crop.height)},
-            {"error", fmt::format("{}", format.refinement.error)},
+            {"noise", fmt::format("{}", format.refinement.noise)},
             {"tile", std::to_string(tile)},
             {"build", build},
             {"arithmetic", std::to_string(fingerprint(job.isa))}};

@@ -31,7 +31,7 @@ FilmFormat film_format(const RunRequest& request, const Registry& registry) {
     const auto sampling = sampling_of(request.graph, registry);
     const auto layers = layers_of(request.graph, registry);
     FilmFormat format{film.width, film.height, layers.film, sampling.samples, film.crop};
-    format.refinement = {sampling.error, sampling.least_samples};
+    format.refinement = {sampling.noise, sampling.least_samples};
     format.shown = shown_names(layers, request.graph);
     format.alpha = layers.alpha;
     format.storage = film.storage;
@@ -89,7 +89,7 @@ RunReport first_page(const RunRequest& request, const Registry& registry, const 
     if (const auto& crop = film.crop)
         report.settings["crop"] =
             fmt::format("{},{},{},{}", crop->x, crop->y, crop->x + crop->width, crop->y + crop->height);
-    if (film.adaptive()) report.settings["error"] = fmt::format("{}", film.refinement.error);
+    if (film.adaptive()) report.settings["noise"] = fmt::format("{}", film.refinement.noise);
     if (const auto gains = film_of(request.graph, registry).gains; !gains.empty()) {
         auto& text = report.settings["gains"];
         for (const auto& gain : gains) text += (text.empty() ? "" : " ") + to_string(gain);

@@ -32,7 +32,7 @@ inline constexpr std::uint32_t longest_side = 16384;
 /// How many samples a renderer wants. Those of a kind without such parameters have zeros.
 struct GraphSampling {
     std::uint32_t samples = 0;        // per pixel, at most
-    float error = 0;                  // noise threshold; 0: every pixel gets all samples
+    float noise = 0;                  // threshold; 0: every pixel gets all samples
     std::uint32_t least_samples = 0;  // of each pixel, where there is a threshold
 };
 
