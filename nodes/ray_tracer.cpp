@@ -319,7 +319,7 @@ Kind ray_tracer_kind() {
                  .initial = Value{16.0},
                  .least = 1,
                  .most = 1 << 24},
-                {.name = "noise",
+                {.name = "error",
                  .help = "noise threshold: ends a cell of 8 x 8 pixels before it has all samples, when the mean error "
                          "of its pixels, each relative to the square root of its brightness, is estimated at this, as "
                          "in Cycles: 0.1 (drafts) … 0.001; 0: never",
@@ -370,9 +370,6 @@ Kind ray_tracer_kind() {
                  .least = 0,
                  .most = 16},
             },
-        .gone = {{"error",
-                  "say noise = X, which is relative to the square root of the brightness, as in Cycles; for what is "
-                  "neither dark nor bright the number may stay"}},
         .light = {.lamps = true, .groups = true, .paths = always({"LS*E"}), .onward = "S*E"},
         .make_renderer = [](const NodeContext& here) { return std::make_unique<RayTracer>(here); },
     };

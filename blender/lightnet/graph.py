@@ -38,7 +38,7 @@ def text_of(lighting, size, samples, noise=0, groups=None, shown=(), ranks=6, tr
         elif name in mattes:
             lines.append(f'{name} = Cryptomatte {{ of = "{mattes[name]}", ranks = {ranks} }}')
             names.append(name)
-    more = [f"samples = {samples}"] + ([f"noise = {noise!r}"] if noise > 0 else []) + ([on] if on else [])
+    more = [f"samples = {samples}"] + ([f"error = {noise!r}"] if noise > 0 else []) + ([on] if on else [])
     more += [f"show = {{ {', '.join(names)} }}"] if names else []
     more += ["alpha = true", "background = false"] if transparent else []
     film = f'film = {{ {size[0]}, {size[1]}, file = "picture.exr"{", clean = true" if clean else ""} }}'

@@ -539,7 +539,7 @@ class RayTracer(Node):
         width, height, and file of the image
     samples: integer, in samples, default 16.0, 1.0 … 16777216.0
         samples per pixel; with a noise threshold: at most
-    noise: number, default 0.0, 0.0 … 1.0
+    error: number, default 0.0, 0.0 … 1.0
         noise threshold: ends a cell of 8 x 8 pixels before it has all samples, when the mean error of its pixels, each relative to the square root of its brightness, is estimated at this, as in Cycles: 0.1 (drafts) … 0.001; 0: never
     least_samples: integer, in samples, default 32.0, 1.0 … 16777216.0
         with a noise threshold: what every pixel gets, in whole blocks of 16, and at least 32
@@ -569,7 +569,7 @@ class RayTracer(Node):
         scene: Node | None = ...,
         film: Sequence[int] | Mapping[str, Any] | None = ...,
         samples: int | None = ...,
-        noise: float | None = ...,
+        error: float | None = ...,
         least_samples: int | None = ...,
         max_depth: int | None = ...,
         show: Sequence[Node] | None = ...,

@@ -78,7 +78,7 @@ TEST_F(Compositing, LosesNothingWithAHost) {
 }
 
 TEST_F(Compositing, IsTheSameWhereCellsDecideAboutTheirSamples) {
-    const auto graph = changed("samples = 64,", "samples = 192, noise = 0.05, least_samples = 32,");
+    const auto graph = changed("samples = 64,", "samples = 192, error = 0.05, least_samples = 32,");
     const Words words{"--size", "40x24"};
     const auto with = [&](Words more) {
         more.insert(more.end(), words.begin(), words.end());

@@ -93,7 +93,7 @@ TEST_F(Explain, GivesTheBitsOfARunOnTwoDaemons) {
 TEST_F(Explain, GivesThemWhereCellsDecideAboutTheirSamples) {
     folder.write("cornell_box.pbrt", bytes_of(graph_file("cornell_box.pbrt")));
     auto text = bytes_of(graph_file("cornell.lua"));
-    text.insert(text.find("samples = samples"), "noise = 0.03, ");
+    text.insert(text.find("samples = samples"), "error = 0.03, ");
     render(folder.write("adaptive.lua", text), {"--size", "20x20", "--samples", "256", "--threads", "2"});
     const Picture had = read_exr(picture);
     const auto [least, most] = std::minmax_element(had.samples.begin(), had.samples.end());

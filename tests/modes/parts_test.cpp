@@ -45,7 +45,7 @@ std::string adaptive_graph(const Folder& folder) {
     std::ofstream(folder / "adaptive.lua")
         << "scene = Scene { '" << graph_file("cornell_box.pbrt") << "' }\n"
         << "light = PathTracing { paths = 'all' }\n"
-        << "image = RayTracer { light, scene = scene, samples = 200, noise = 0.04, least_samples = 32,\n"
+        << "image = RayTracer { light, scene = scene, samples = 200, error = 0.04, least_samples = 32,\n"
         << "                    film = { 44, 36 } }\n";
     return folder / "adaptive.lua";
 }

@@ -74,7 +74,7 @@ TEST_F(TimeLimit, EndsWhereCellsDecideAboutTheirSamplesAndWhereNodesLearnAnew) {
     folder.write("cornell_box.pbrt", bytes_of(graph_file("cornell_box.pbrt")));
     auto text = bytes_of(graph_file("cornell.lua"));
     const std::string samples = "samples = samples";
-    text.insert(text.find(samples), "noise = 0.001, least_samples = 32, ");
+    text.insert(text.find(samples), "error = 0.001, least_samples = 32, ");
     const auto adaptive = folder.write("adaptive.lua", text);
     for (const auto& [graph, more] :
          {std::pair(adaptive, Words{}), std::pair(std::string("progressive.lua"), Words{"-D", "photons=1000"})}) {

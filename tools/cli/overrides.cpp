@@ -52,7 +52,7 @@ void override_picture(Graph& graph, const Registry& registry, const PictureOptio
         for (const auto& param : kind->params) {
             if (wanted.samples && param.name == "samples")
                 node.params[param.name] = {static_cast<double>(*wanted.samples)};
-            if (wanted.noise && param.name == "noise") node.params[param.name] = {*wanted.noise};
+            if (wanted.noise && param.name == "error") node.params[param.name] = {*wanted.noise};
             if (wanted.alpha && param.name == "alpha") node.params[param.name] = {true};
             if (wanted.alpha && param.name == "background") node.params[param.name] = {false};
             const bool changes =

@@ -21,7 +21,7 @@ std::string text_of_light(Graph graph, const Registry& registry) {
         const Kind* kind = registry.find(node.kind);
         if (kind->role != Role::image) continue;
         for (const auto& param : kind->params)
-            if (param.type == ParamType::film || param.name == "samples" || param.name == "noise")
+            if (param.type == ParamType::film || param.name == "samples" || param.name == "error")
                 node.params.erase(param.name);
     }
     return to_json(graph);

@@ -54,7 +54,7 @@ GraphSampling sampling_of(const Graph& graph, const Registry& registry) {
         return param == params.end() ? 0 : std::get<double>(param->second.data);
     };
     const auto count = [&](const char* name) { return static_cast<std::uint32_t>(number(name)); };
-    return {count("samples"), static_cast<float>(number("noise")), count("least_samples")};
+    return {count("samples"), static_cast<float>(number("error")), count("least_samples")};
 }
 
 const Node& scene_of(const Graph& graph, const Registry& registry) {
