@@ -16,6 +16,7 @@
 #include "core/film/exr.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/run/message/message.hpp"
+#include "tools/session/firefly_words.hpp"
 #include "tools/session/run_figures.hpp"
 #include "tools/session/run_trace.hpp"
 #include "tools/support/log_line.hpp"
@@ -299,6 +300,11 @@ void RunRecorder::write_picture(const std::string& exr) {
     if (film().format().halves()) write_clean(exr);
     previewed_ = false;
     const Film& film = steps_.picture();
+    if (film.complete())
+        if (const auto words = firefly_words(picture_now(), report_.nodes, exr);
+            !words.empty() &&
+            std::find(report_.warnings.begin(), report_.warnings.end(), words) == report_.warnings.end())
+            warn(words);  // once: a disk may have been full
     if (film.format().adaptive() || !film.complete())
         report_.settings["mean_samples"] = fmt::format("{:.2f}", film.mean_samples());
 }
