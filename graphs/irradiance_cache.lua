@@ -3,7 +3,7 @@
 -- lightnet run graphs/irradiance_cache.lua -D file=/somewhere/scene.pbrt -D width=640 -D height=360
 file = "cornell_box.pbrt"
 width, height, samples, rays = 256, 256, 16, 0    -- 0 rays: as many as the error wants
-wanted_error = 0.01    -- how far light may be off between records
+wanted_error = 0.04    -- how far off the picture may be, root mean square
 
 scene    = Scene           { file }
 direct   = DirectLighting  { samples = 1 }

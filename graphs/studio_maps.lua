@@ -1,6 +1,6 @@
 -- Groups of lamps through caches: photons carry the group of their lamp, records of the cache hold one irradiance for
 -- each. So a group's layers have its light, and nothing of another's.
-wanted_error, photons, rays, samples = 0.01, 0, 384, 16    -- 0 photons: as many as the error wants
+wanted_error, photons, rays, samples = 0.04, 0, 384, 16    -- 0 photons: as many as the error wants
 
 scene    = Scene { "studio.pbrt", groups = { key = "softbox", fill = "reflector", rim = "rim light" } }
 direct   = DirectLighting  { groups = true }

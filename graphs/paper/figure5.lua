@@ -11,7 +11,7 @@
 -- lightnet run graphs/paper/figure5.lua -D file=/somewhere/scene.pbrt -D width=640 -D height=360
 file = "../glass_ball.pbrt"
 width, height, samples, rays = 256, 256, 16, 0    -- 0 rays: as many as that wants
-wanted_error, photons = 0.01, 0    -- how far light may be off; 0 photons: as many as that wants
+wanted_error, photons = 0.04, 0    -- how far off the picture may be; 0 photons: as many as that wants
 
 scene    = Scene           { file }
 direct   = DirectLighting  { samples = 1 }

@@ -14,7 +14,7 @@
 -- lightnet dot graphs/paper/figure8.lua --pictures figure8.exr | dot -Tpng > figure8.png
 file = "../glass_ball.pbrt"
 width, height, samples, rays = 256, 256, 16, 256
-wanted_error, photons = 0.01, 0    -- how far light may be off; 0 photons: as many as that wants
+wanted_error, photons = 0.04, 0    -- how far off the picture may be; 0 photons: as many as that wants
 
 scene    = Scene           { file }
 direct   = DirectLighting  { samples = 1 }
