@@ -21,11 +21,22 @@
 namespace lightnet {
 namespace {
 
+constexpr std::size_t rounds = 4;
+constexpr std::size_t compared = 4;  // of so many paths one goes by surfaces alone
+
+// How many times less noise × work there must be after each round. The guide that is judged has not learnt from that
+// round yet, which doubles what it knows: then it helps more. Before the last round nobody is turned down who may still
+// pay; in the end who can't be told to pay is.
+bool pays(const GuideTrial::Gain& gain, std::size_t round) {
+    constexpr std::array<double, rounds> least_gain{0, 0.72, 0.8, 0.85};
+    return (round + 1 < rounds ? gain.high() : gain.low()) >= least_gain[round];
+}
+
 /// Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient Light-Transport Simulation": follows light paths
 /// in rounds, each of twice as many as the one before and guided by what all before have found. It begins where path
-/// tracing that takes it is asked, in rehearsals. The first round, which nobody guides, is what the last one is
-/// compared with: where guided paths don't find more for the same work, nobody is guided. Pictures have no bias by it,
-/// however wrong it may be.
+/// tracing that takes it is asked, in rehearsals. The first round, and some paths of each, nobody guides: guided ones
+/// are compared with them, and where they don't find more for the same work, nobody is guided. Pictures have no bias by
+/// it, however wrong it may be.
 class Guide final : public LightOp {
 public:
     explicit Guide(const NodeContext& here)
@@ -44,8 +55,8 @@ public:
         const std::vector<Query> questions = points(services);
         bool helps = true;
         for (std::size_t round = 0; round < rounds && helps && !questions.empty(); ++round) {
-            found.push_back(learn(services, {questions, round, guide.get()}));
-            if (tries && round > 0) helps = gain(services, found, questions.size()) >= least_gain[round];
+            found.push_back(learn(services, {questions, round, guide.get(), tries}));
+            if (tries && round > 0) helps = pays(gain(services, found, questions.size()), round);
             if (helps) guide = made(services, found);
         }
         services.say(std::to_string(count_of(found)) + " directions in " + std::to_string(guide ? guide->size() : 0) +
@@ -66,6 +77,7 @@ private:
         std::span<const Query> questions;
         std::size_t number;
         const LightGuide* guide;
+        bool tries;  // with paths that go by surfaces alone, at all points in turn: the others are compared with them
     };
 
     // In the order of their keys, which is none: all over the image.
@@ -81,6 +93,10 @@ private:
         return std::max<std::size_t>(1, paths_ / ((1u << rounds) - 1)) * ((1u << round) - 1);
     }
 
+    static bool follows(const Round& round, std::size_t path) {
+        return round.guide && (!round.tries || (path + path / round.questions.size()) % compared > 0);
+    }
+
     /// Follows the paths of one round, on all places.
     Mapped<GuideRecord> learn(Services& services, const Round& round) const {
         services.doing("follows paths, round " + std::to_string(round.number + 1) + " of " + std::to_string(rounds));
@@ -93,25 +109,30 @@ private:
         return services.map<GuideRecord>(
             (last - first + paths_per_shard - 1) / paths_per_shard, [&](std::size_t shard, auto& out) {
                 const std::size_t begin = first + shard * paths_per_shard;
-                std::vector<Query> some;
-                for (std::size_t path = begin; path < std::min(last, begin + paths_per_shard); ++path)
-                    some.push_back(asked(path));
-                Learnt learnt;
-                walk_.learn(some, child(key_, key_, round.number), round.guide, learnt);
-                out.swap(learnt.records);
-                for (const PathRecord& path : learnt.paths) out.push_back(GuideTrial::record_of(path));
+                const std::size_t end = std::min(last, begin + paths_per_shard);
+                for (const bool guided : {false, true}) {
+                    std::vector<Query> some;
+                    std::vector<std::uint32_t> points;
+                    for (std::size_t path = begin; path < end; ++path) {
+                        if (guided != follows(round, path)) continue;
+                        some.push_back(asked(path));
+                        points.push_back(static_cast<std::uint32_t>(path % round.questions.size()));
+                    }
+                    Learnt learnt;
+                    walk_.learn(some, child(key_, key_, round.number), guided ? round.guide : nullptr, learnt);
+                    out.insert(out.end(), learnt.records.begin(), learnt.records.end());
+                    for (std::size_t i = 0; i < points.size(); ++i)
+                        out.push_back(GuideTrial::record_of({learnt.paths[i], points[i], guided}));
+                }
             });
     }
 
-    /// Of guided paths, by the rounds so far.
-    double gain(Services& services, const Found& found, std::size_t points) const {
-        return *services.once<double>([&] {
+    /// Of the paths that the last round guided, beside all that nobody did.
+    GuideTrial::Gain gain(Services& services, const Found& found, std::size_t points) const {
+        return *services.once<GuideTrial::Gain>([&] {
             GuideTrial trial(points);
-            for (std::size_t round = 0; round < found.size(); ++round) {
-                std::size_t path = first_path(round);
-                for (const GuideRecord& record : found[round])
-                    if (!LightGuide::learns_from(record)) trial.add(round, path++ % points, record);
-            }
+            for (const auto& round : found)
+                for (const GuideRecord& record : round) trial.add(record, &round == &found.back());
             return trial.gain();
         });
     }
@@ -119,9 +140,9 @@ private:
     static std::shared_ptr<const LightGuide> made(Services& services, const Found& found) {
         services.doing("builds its tree");
         return services.once<LightGuide>([&](Builders& builders) {
-            std::vector<std::span<const GuideRecord>> rounds;
-            for (const auto& round : found) rounds.push_back(round.all());
-            return LightGuide(rounds, builders);
+            std::vector<std::span<const GuideRecord>> lots;
+            for (const auto& round : found) lots.push_back(round.all());
+            return LightGuide(lots, builders);
         });
     }
     static std::size_t count_of(const Found& found) {
@@ -155,13 +176,10 @@ private:
             });
     }
 
-    static constexpr std::size_t rounds = 4;
     static constexpr std::uint32_t coarsest = 8;          // pixels between points of the first rehearsal
     static constexpr std::size_t most_points = 4096;      // at which paths begin
     static constexpr std::size_t paths_per_shard = 1024;  // some ms
     static constexpr std::size_t records_per_shard = 65536;
-    // How many times less variance × work there must be after each round: a guide that has learnt little helps little.
-    static constexpr std::array<double, rounds> least_gain{0, 0.8, 0.95, 1.2};
 
     Rehearsal& rehearsal_;
     Key key_;

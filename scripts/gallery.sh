@@ -59,7 +59,7 @@ picture living_room "The grey and white room, by the network of the paper's figu
 picture staircase "Modern hall, by path tracing" "Scene: NewSee2l035, CC BY 3.0, by way of Benedikt Bitterli." \
     render "$scenes/staircase2-mitsuba/scene.xml" --size 360x480 --samples 256
 picture ajar "A door ajar, by guided path tracing" "Scene: Benedikt Bitterli, CC0, after Eric Veach." \
-    render "$scenes/veach-ajar-pbrt/veach-ajar.pbrt" --lighting graphs/guided.lua --size 480x270 --samples 512
+    render "$scenes/veach-ajar-pbrt/veach-ajar.pbrt" --lighting graphs/guided.lua --size 480x270 --samples 128
 picture mis "Plates and lamps, by path tracing" "Scene: Benedikt Bitterli, CC0, after Eric Veach." \
     render "$scenes/veach-mis-mitsuba/scene.xml" --size 480x270 --samples 64
 picture water "A caustic under water, by progressive photon mapping" "Scene: Benedikt Bitterli, CC0." \

@@ -12,10 +12,10 @@ light = PathTracing {{ paths = "all", guide = guide{and_groups} }}""",
 indirect = ProgressivePhotonMapping {{ paths = "indirect", photons = 100000 }}
 light = Combine {{ direct, indirect }}""",
     "figure5": """direct = DirectLighting {{}}
-caustics = PhotonMap {{ paths = "caustic", photons = 0, error = 0.01, gather = 50 }}
-global = PhotonMap {{ paths = "diffuse", photons = 0, error = 0.01, gather = 50 }}
+caustics = PhotonMap {{ paths = "caustic", photons = 0, error = 0.04, gather = 50 }}
+global = PhotonMap {{ paths = "diffuse", photons = 0, error = 0.04, gather = 50 }}
 first = Combine {{ direct, caustics, global }}
-soft = IrradianceCache {{ first, rays = 0, glossy_rays = 4, error = 0.01 }}
+soft = IrradianceCache {{ first, rays = 0, glossy_rays = 4, error = 0.04 }}
 light = Combine {{ direct, caustics, soft }}""",
 }
 by_groups = {"path", "direct", "guided"}
@@ -26,7 +26,7 @@ mattes = {"CryptoObject": "object", "CryptoMaterial": "material"}
 def text_of(lighting, size, samples, noise=0, groups=None, shown=(), ranks=6, transparent=False, clean=False):
     """A graph of `scene.xml` beside it. groups: names of lamps by group; shown: names of passes."""
     groups = groups if lighting in by_groups else None
-    learning = size[0] * size[1] * samples // 14 + 64
+    learning = size[0] * size[1] * samples // 24 + 64
     lines = ['scene = Scene { "scene.xml"' + (f", groups = {table(groups)}" if groups else "") + " }"]
     on = "groups = true" if groups else ""
     lines.append(operators[lighting].format(groups=on, and_groups=f", {on}" if on else "", learning=learning))

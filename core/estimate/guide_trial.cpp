@@ -1,71 +1,80 @@
 #include "core/estimate/guide_trial.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lightnet {
 namespace {
 
-constexpr double work_of_guide = 1.25;      // beside paths without one: measured on rooms
-constexpr double work_before = 2;           // of ray and direct light of the point where a path begins, in surfaces
-constexpr double dark = 0.5;                // of the mean over all points
-constexpr std::array clipped{0.001, 0.01};  // of paths count no more than the least bright of them
+constexpr double work_of_guide = 1.3;  // beside paths without one: measured on rooms
+constexpr double dark = 0.5;           // of the mean over all points
+
+double times_of(double alone, double guided) { return guided > 0 ? alone / guided / work_of_guide : 0; }
 
 }  // namespace
 
-GuideRecord GuideTrial::record_of(const PathRecord& path) { return GuideRecord(Vec3{path.radiance, path.surfaces, 0}); }
-
-void GuideTrial::add(std::size_t round, std::size_t point, const GuideRecord& path) {
-    if (rounds_.size() <= round) rounds_.resize(round + 1);
-    const auto [radiance, surfaces, nothing] = path.position();
-    const bool sound = path.sound() && radiance >= 0 && surfaces >= 0;
-    if (point < points_ && sound) rounds_[round].push_back({point, radiance, surfaces});
+void GuideTrial::Sums::add(const Sums& more, double times) {
+    light += times * more.light, moment += times * more.moment;
+    surfaces += times * more.surfaces, paths += times * more.paths;
 }
 
-double GuideTrial::gain() const {
-    if (rounds_.size() < 2) return 0;
+// With a mean of one, a moment of order 3/2 is one where there is no noise.
+double GuideTrial::Sums::cost() const {
+    if (!(light > 0)) return 0;
+    const double mean = light / paths;
+    return std::fmax(0.0, moment / paths / (mean * std::sqrt(mean)) - 1) * surfaces / paths;
+}
+
+GuideRecord GuideTrial::record_of(const Tried& tried) {
+    return GuideRecord(Vec3{tried.path.radiance, tried.path.surfaces, float(2 * tried.point + tried.guided)});
+}
+
+void GuideTrial::add(const GuideRecord& path, bool judged) {
+    const auto [radiance, surfaces, origin] = path.position();
+    if (LightGuide::learns_from(path) || !path.sound()) return;
+    if (!(radiance >= 0 && surfaces >= 0 && origin >= 0 && origin < float(2 * points_))) return;
+    const auto number = std::size_t(origin), kind = number % 2;
+    if (kind == 0 || judged) kinds_[kind].push_back({number / 2, radiance, surfaces});
+}
+
+// A path is compared with the others of its point: a bright one must not hide itself.
+std::array<GuideTrial::Kinds, GuideTrial::groups> GuideTrial::sums() const {
+    struct Point {
+        double radiance = 0, paths = 0;
+    };
     std::vector<Point> points(points_);
-    double sum = 0, count = 0;
-    for (const auto& round : rounds_)
-        for (const Path& path : round) {
-            points[path.point].radiance += path.radiance, points[path.point].paths += 1;
-            sum += path.radiance, count += 1;
+    Point all;
+    for (const auto& kind : kinds_)
+        for (const Path& path : kind)
+            for (Point* to : {&points[path.point], &all}) to->radiance += path.radiance, to->paths += 1;
+    std::array<Kinds, groups> sums;
+    if (!(all.radiance > 0)) return sums;
+    const double least = dark * all.radiance / all.paths;
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind)
+        for (const Path& path : kinds_[kind]) {
+            const auto [radiance, paths] = points[path.point];
+            const double others = paths > 1 ? (radiance - path.radiance) / (paths - 1) : 0;
+            const double light = (path.radiance + least) / (others + least);
+            sums[path.point % groups][kind].add({light, light * std::sqrt(light), path.surfaces, 1}, 1);
         }
-    if (!(sum > 0)) return 0;
-    const double least = dark * sum / count;
-    const Cost alone = cost_of(rounds_.front(), 1, points, least);
-    const Cost guided = cost_of(rounds_.back(), work_of_guide, points, least);
-    double most = 0;
-    for (std::size_t i = 0; i < alone.size(); ++i)
-        if (guided[i] > 0) most = std::max(most, alone[i] / guided[i]);
-    return most;
+    return sums;
 }
 
-// Mean square error × work. A path is compared with the others of its point: a bright one must not hide itself. Nor
-// must a few rare ones decide, which may be in one round and not in the other.
-GuideTrial::Cost GuideTrial::cost_of(const std::vector<Path>& round, double work, std::span<const Point> points,
-                                     double least) const {
-    Cost cost{};
-    if (round.empty()) return cost;
-    std::vector<double> squares;
-    squares.reserve(round.size());
-    double surfaces = 0;
-    for (const Path& path : round) {
-        const Point& point = points[path.point];
-        const double others = point.paths > 1 ? (point.radiance - path.radiance) / (point.paths - 1) : 0;
-        const double off = path.radiance - others;
-        squares.push_back(off * off / (others * others + least * least));
-        surfaces += path.surfaces;
+// Jackknife: the gain without each of the groups.
+GuideTrial::Gain GuideTrial::gain() const {
+    const auto parts = sums();
+    Kinds all;
+    for (const Kinds& part : parts)
+        for (std::size_t kind = 0; kind < all.size(); ++kind) all[kind].add(part[kind], 1);
+    std::array<double, groups> without;
+    double mean = 0, squares = 0;
+    for (std::size_t i = 0; i < groups; ++i) {
+        Kinds rest = all;
+        for (std::size_t kind = 0; kind < rest.size(); ++kind) rest[kind].add(parts[i][kind], -1);
+        without[i] = times_of(rest[0].cost(), rest[1].cost());
+        mean += without[i] / groups;
     }
-    std::sort(squares.begin(), squares.end());
-    const auto count = double(round.size());
-    for (std::size_t i = 0; i < cost.size(); ++i) {
-        const double most = squares[std::size_t((1 - clipped[i]) * (count - 1))];
-        double sum = 0;
-        for (const double square : squares) sum += std::min(square, most);
-        cost[i] = sum / count * (work * surfaces / count + work_before);
-    }
-    return cost;
+    for (const double times : without) squares += (times - mean) * (times - mean);
+    return {times_of(all[0].cost(), all[1].cost()), std::sqrt(squares * (groups - 1) / groups)};
 }
 
 }  // namespace lightnet

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
+#include <cstdint>
 #include <vector>
 
 #include "core/estimate/light_guide.hpp"
@@ -11,34 +11,53 @@
 
 namespace lightnet {
 
-/// Compares rounds of paths that begin at the same points: the first, which nobody guides, and the last.
+/// Compares guided paths with paths that go by surfaces alone, which begin at the same points.
 /// DECISIONS: guided-where-it-pays
 class GuideTrial {
 public:
+    /// A path of the trial.
+    struct Tried {
+        PathRecord path;
+        std::uint32_t point;  // at which it begins
+        bool guided;
+    };
+    /// How many times more noise × work paths by surfaces alone have than guided ones, and its standard error.
+    struct Gain {
+        double times = 0, error = 0;
+        /// It is hardly less, or hardly more: the odds are two to one, and five to one.
+        double low() const { return times - 0.5 * error; }
+        double high() const { return times + error; }
+    };
+
+    /// Paths begin at so many points: at most 2²³.
     explicit GuideTrial(std::size_t points) : points_(points) {}
 
     /// A whole path, among records of directions. A guide does not learn from it.
-    static GuideRecord record_of(const PathRecord& path);
-    /// Path of a round that began at that point.
-    void add(std::size_t round, std::size_t point, const GuideRecord& path);
-    /// How many times more variance × work there is in the first round than in the last. A guided surface counts as a
-    /// quarter more work, and every path has its point, whatever guides it. Variance is relative to what all paths have
-    /// found at the same point, on average; the darkest points count less. Where nothing was found: 0.
-    double gain() const;
+    static GuideRecord record_of(const Tried& tried);
+    /// `judged`: of the round that the gain is of; of those before, paths count that go by surfaces alone. Records that
+    /// are no paths of trials are passed over.
+    void add(const GuideRecord& path, bool judged);
+    /// Noise is a moment of order 3/2 of the light of paths, relative to what the other paths of a point have found;
+    /// the darkest points count less. Variance would hang on the few brightest paths, which may be on either side. A
+    /// guided surface counts as three tenths more work. Where nothing was found: 0.
+    Gain gain() const;
 
 private:
+    static constexpr std::size_t groups = 16;  // disjoint ones of points, whose gains tell the error
     struct Path {
         std::size_t point;
         double radiance, surfaces;
     };
-    struct Point {
-        double radiance = 0, paths = 0;
+    struct Sums {
+        double light = 0, moment = 0, surfaces = 0, paths = 0;
+        void add(const Sums& more, double times);
+        double cost() const;
     };
-    using Cost = std::array<double, 2>;
-    Cost cost_of(const std::vector<Path>& round, double work, std::span<const Point> points, double least) const;
+    using Kinds = std::array<Sums, 2>;  // those that go by surfaces alone, and guided ones
+    std::array<Kinds, groups> sums() const;
 
     std::size_t points_;
-    std::vector<std::vector<Path>> rounds_;
+    std::array<std::vector<Path>, 2> kinds_;
 };
 
 }  // namespace lightnet

@@ -35,4 +35,9 @@ inline float chance_by_hope(float left) {
     return select(least < 1, least, 1);
 }
 
+/// Chances by hope alone would make paths of a thousand times their weight where a guide knows nothing of a light that
+/// they may still meet. `weight`: of the light that the path brings, before; ends by chance never raise it above one.
+// DECISIONS: no-weight-by-chance
+inline float chance_by_weight(float chance, float weight) { return std::max(chance, std::min(weight, 1.0f)); }
+
 }  // namespace lightnet

@@ -345,6 +345,7 @@ private:
             const float hope = known ? max_component(path.weight) * std::min(kept, 1.0f) * on.known : 0;
             hoped = known && depth == 0 ? hope : path.hoped;
             if (known && depth > 0 && hoped > 0) chance = chance_by_hope(hope / hoped);
+            chance = chance_by_weight(chance, max_component(weight) * eta_scale);
         }
         bool survives = true;
         if (guided || depth >= roulette_depth_) {  // with a chance of 1 nothing changes

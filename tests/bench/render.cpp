@@ -69,7 +69,7 @@ const std::vector<Row>& rows() {
         {"terrain", "path.lua", "terrain.pbrt", terrain, many_samples, false, 0, 2.5},
         {"cornell_grey_one_node", "path_all.lua", "cornell_grey.pbrt", grey, {}, false, 0, 2.2},
         {"indirect_one_node", "path_all.lua", "indirect.pbrt", indirect, {}, false, 6e-4, 22},
-        {"indirect_guided", "guided.lua", "indirect.pbrt", indirect, many_samples, false, 6e-4, 11},
+        {"indirect_guided", "guided.lua", "indirect.pbrt", indirect, {}, false, 6e-4, 11},
         {"terrain_one_node", "path_all.lua", "terrain.pbrt", terrain, {}, false, 0, 2.5},
         {"indirect_cache", "irradiance_cache.lua", "indirect.pbrt", indirect, dark_room_cache, true, 6e-4, 0.8},
         {"cornell_grey_cache", "irradiance_cache.lua", "cornell_grey.pbrt", grey, quick_cache, true, 0, 0.7},

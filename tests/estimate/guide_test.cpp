@@ -8,6 +8,7 @@
 #include "core/estimate/guide_trial.hpp"
 #include "core/estimate/guided_columns.hpp"
 #include "core/estimate/light_guide.hpp"
+#include "core/estimate/path_chances.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet::guide_test {
@@ -255,19 +256,66 @@ TEST(LightGuide, DoesNotLearnFromWhatNoPathCanHaveFound) {
     EXPECT_EQ(LightGuide(wrong, alone).size(), 0u);
 }
 
-TEST(GuideTrial, ComparesTheVarianceOfGuidedPathsWithThatOfOthers) {
+// Of each kind so many paths that begin at 100 points.
+template <class Radiance>
+GuideTrial trial_of(std::uint32_t paths, const Radiance& radiance) {
+    GuideTrial trial(100);
+    for (const bool guided : {false, true})
+        for (std::uint32_t path = 0; path < paths; ++path)
+            trial.add(GuideTrial::record_of({{radiance(path, guided), 3}, path % 100, guided}), true);
+    return trial;
+}
+
+TEST(GuideTrial, ComparesTheNoiseOfGuidedPathsWithThatOfOthers) {
     const auto gain = [](float spread) {
-        GuideTrial trial(100);
-        for (std::size_t path = 0; path < 4000; ++path) {
-            const float sign = path / 100 % 2 ? 1.0f : -1.0f;
-            trial.add(0, path % 100, GuideTrial::record_of({1 + 0.8f * sign, 3}));
-            trial.add(1, path % 100, GuideTrial::record_of({1 + spread * sign, 3}));
-        }
-        return trial.gain();
+        return trial_of(16000, [&](std::uint32_t path, bool guided) {
+            return 1 + (guided ? spread : 0.8f) * (path / 100 % 2 ? 1.0f : -1.0f);
+        });
     };
-    EXPECT_NEAR(gain(0.4f), 4 * (3.0 + 2) / (3 * 1.25 + 2), 1e-2);
-    EXPECT_LT(gain(0.8f), 1);
-    EXPECT_EQ(GuideTrial(10).gain(), 0) << "nothing was found";
+    const auto moment = [](double spread) {  // of light beside 1, both with the half that counts for the darkest points
+        const double more = (1.5 + spread) / 1.5, less = (1.5 - spread) / 1.5;
+        return (more * std::sqrt(more) + less * std::sqrt(less)) / 2 - 1;
+    };
+    const auto [times, error] = gain(0.4f).gain();
+    EXPECT_NEAR(times, moment(0.8) / moment(0.4) / 1.3, 0.05);
+    EXPECT_LT(error, 0.05) << "all points are alike";
+    EXPECT_NEAR(gain(0.8f).gain().times, 1 / 1.3, 1e-2) << "guided paths take more work";
+    EXPECT_EQ(GuideTrial(10).gain().times, 0) << "nothing was found";
+}
+
+TEST(GuideTrial, CountsPathsOfRoundsBeforeOnlyIfNobodyGuidesThem) {
+    const auto varied = [](std::uint32_t path, bool guided) {
+        return 1 + (guided ? 0.01f : 0.5f) * (path / 100 % 2 ? 1.0f : -1.0f);
+    };
+    GuideTrial trial = trial_of(4000, varied), other = trial_of(4000, varied);
+    EXPECT_GT(trial.gain().times, 100);
+    trial.add(GuideTrial::record_of({{1000, 3}, 7, true}), false);
+    EXPECT_EQ(trial.gain().times, other.gain().times);
+    trial.add(GuideTrial::record_of({{1000, 3}, 7, true}), true);
+    EXPECT_LT(trial.gain().times, 100);
+}
+
+// Few paths bring much.
+TEST(GuideTrial, KnowsHowSureItIs) {
+    double sum = 0, squares = 0, errors = 0;
+    constexpr int trials = 40;
+    for (int seed = 0; seed < trials; ++seed) {
+        const auto radiance = [&](std::uint32_t path, bool guided) {
+            const float u = Samples(Key(2 * seed + guided), path).next();
+            return guided ? 0.5f + u : u < 0.02f ? 26.0f : 0.5f;
+        };
+        const auto [times, error] = trial_of(8000, radiance).gain();
+        sum += times, squares += times * times, errors += error;
+    }
+    const double mean = sum / trials, deviation = std::sqrt(squares / trials - mean * mean);
+    EXPECT_GT(mean, 5);
+    EXPECT_NEAR(errors / trials / deviation, 1, 0.5);
+}
+
+TEST(ChanceByWeight, LetsNoPathWeighMoreThanOneForHavingSurvived) {
+    EXPECT_EQ(chance_by_weight(chance_by_hope(1e-4f), 0.5f), 0.5f);
+    EXPECT_EQ(chance_by_weight(chance_by_hope(1e-4f), 4), 1);
+    EXPECT_EQ(chance_by_weight(0.3f, 0.2f), 0.3f) << "what is dim may end";
 }
 
 }  // namespace

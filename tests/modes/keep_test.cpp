@@ -101,7 +101,7 @@ TEST_F(Keep, LetsAGuideGoOnFromWhatAnotherRunHasLearnt) {
         std::ofstream(folder / name) << text;
         return folder / name;
     };
-    const std::vector<std::string> few{"--size",     "32x32", "--samples", "4",    "-D",        "paths=7000",
+    const std::vector<std::string> few{"--size",     "32x32", "--samples", "4",    "-D",        "lessons=7000",
                                        "--progress", "plain", "--cache",   "none", "--threads", "1"};
     const auto keeping = guided("first.lua", "keep = 'room.directions'");
     ASSERT_EQ(launch(keeping, folder, few).code, 0);

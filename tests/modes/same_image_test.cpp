@@ -59,7 +59,7 @@ std::vector<std::string> nodes_of(const std::string& graph) {
 std::vector<std::string> words_for(const std::string& graph) {
     if (graph == "paper/figure5.lua" || graph == "paper/figure8.lua")
         return with(small_pictures, {"-D", "photons=20000", "-D", "rays=32", "-D", "wanted_error=0.0625"});
-    if (graph == "guided.lua") return with(small_pictures, {"-D", "paths=7000", "-D", "when=always"});
+    if (graph == "guided.lua") return with(small_pictures, {"-D", "lessons=7000", "-D", "when=always"});
     if (graph == "irradiance_cache.lua") return with(small_pictures, {"-D", "rays=32", "-D", "wanted_error=0.0625"});
     if (graph == "paper/figure3.lua") return with(small_pictures, {"-D", "rays=32"});
     if (graph == "studio_maps.lua") {
