@@ -7,7 +7,7 @@
 namespace lightnet {
 namespace {
 
-constexpr double held = 0.99;               // of all error
+constexpr double share_of_error = 0.99;     // of all error
 constexpr double most_share = 0.005;        // of all pixels: more of them are a noisy picture
 constexpr std::size_t least_pixels = 4096;  // fewer tell nothing
 constexpr double least_error = 0.01;        // mean over all pixels: below, nobody sees them
@@ -50,7 +50,7 @@ std::optional<Fireflies> fireflies_in(const Picture& picture, const std::vector<
     std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(std::min(most, order.size())), order.end(),
                       [&](std::size_t a, std::size_t b) { return found[a] != found[b] ? found[a] > found[b] : a < b; });
     Fireflies result;
-    for (double sum = 0; sum < held * all; sum += found[order[result.pixels++]])
+    for (double sum = 0; sum < share_of_error * all; sum += found[order[result.pixels++]])
         if (result.pixels == most) return std::nullopt;
     for (std::size_t i = 0; i < std::min(result.pixels, Fireflies::most_places); ++i)
         result.brightest.push_back(
