@@ -5,8 +5,10 @@ import contextlib
 import functools
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
+import threading
 
 from .errors import NoProgram, error_of
 
@@ -31,6 +33,23 @@ def said(*words, text=None, pass_fds=()):
     if done.returncode != 0:
         raise error_of(done.returncode, done.stderr)
     return done.stdout
+
+
+@contextlib.contextmanager
+def uninterrupted():
+    """Ctrl-C counts when this is over: a process that is being started must be known before anybody can leave it."""
+    before = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(before):
+        yield  # nobody is interrupted here
+        return
+    late = []
+    signal.signal(signal.SIGINT, lambda *interrupt: late.append(interrupt))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if late:
+            before(*late[0])
 
 
 def flags(options):

@@ -60,9 +60,11 @@ class Run:
         with tempfile.TemporaryFile() as given:
             given.write((text or "").encode())
             given.seek(0)
-            self._process = subprocess.Popen(
-                command, stdin=given, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True
-            )
+            with program.uninterrupted():
+                self._process = subprocess.Popen(
+                    command, stdin=given, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                    start_new_session=True,
+                )  # fmt: skip
         if self._cancelled:
             self.cancel()
 

@@ -26,11 +26,12 @@ class Session:
     def __init__(self, image, **options):
         self._folder = program.folder()
         folder = self._folder.__enter__()
-        self._at, self._number, self._held = folder, 0, {}
+        self._at, self._number, self._held, self._process = folder, 0, {}, None
         try:
-            self._process = self._start(image, folder, options)
+            with program.uninterrupted():
+                self._process = self._start(image, folder, options)
         except BaseException:
-            self._folder.__exit__(None, None, None)
+            self.close()
             raise
 
     @staticmethod
@@ -98,16 +99,21 @@ class Session:
 
     def close(self):
         """Ends it. Nothing, where that was done already."""
-        if self._process.poll() is None:
-            self._process.terminate()
-            try:
-                self._process.wait(patience)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
-        for stream in (self._process.stdin, self._process.stdout):
-            stream.close()
+        if self._process:
+            self._end(self._process)
         self._folder.__exit__(None, None, None)
+
+    @staticmethod
+    def _end(process):
+        if process.poll() is None:
+            process.terminate()
+            try:
+                process.wait(patience)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        for stream in (process.stdin, process.stdout):
+            stream.close()
 
     def __enter__(self):
         return self
