@@ -66,7 +66,7 @@ const std::string dot_of_hdr =
     "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\0\0\x81", 4);  // red
 
 TEST(MissingPictures, AreLookedForAsTheirMachineCalledThem) {
-    for (const std::string name : {"tex/Wood.PNG", "C:/work/wood.hdr", "TEX/WOOD.hdr"}) {
+    for (const std::string name : {"tex/Wood.PNG", "C:/textures/wood.hdr", "TEX/WOOD.hdr"}) {
         const MemoryFiles files{{"tex/wood.PNG", dot_of_hdr}, {"wood.hdr", dot_of_hdr}, {"tex/wood.hdr", dot_of_hdr}};
         const auto xml = read_mitsuba_bsdf(
             "<bsdf type='diffuse'><texture type='bitmap' name='reflectance'><string "
