@@ -75,21 +75,14 @@ constexpr std::size_t trivial = 0, asker = 1;
 }  // namespace
 
 Job asking_job(const Picture& picture, std::size_t together) {
-    Job job;
-    job.scene = picture.job.scene;
-    job.files = picture.job.files;
-    job.isa = picture.job.isa;
-    job.width = job.height = 1;
-    job.graph.file = "carrier.lua";
-    job.graph.nodes = {{"trivial", "Trivial", {}, {}, {}},
-                       {"asker",
-                        "Asker",
-                        {Value{NodeRef{"trivial"}}},
-                        {{"scene", Value{NodeRef{"scene"}}},
-                         {"film", Value{Table{{Value{1.0}, Value{1.0}}, {}}}},
-                         {"together", Value{static_cast<double>(together)}}},
-                        {}},
-                       {"scene", "Scene", {Value{job.scene}}, {}, {}}};
+    Job job = picture.of_nodes("carrier.lua", {{"trivial", "Trivial", {}, {}, {}},
+                                               {"asker",
+                                                "Asker",
+                                                {Value{NodeRef{"trivial"}}},
+                                                {{"scene", Value{NodeRef{"scene"}}},
+                                                 {"film", Value{Table{{Value{1.0}, Value{1.0}}, {}}}},
+                                                 {"together", Value{static_cast<double>(together)}}},
+                                                {}}});
     job.tuning.bundle = static_cast<std::uint32_t>(together);
     job.tuning.credit = in_flight;
     return job;

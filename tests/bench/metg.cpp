@@ -31,26 +31,22 @@ constexpr double shortest = 1e-7, longest = 4e-4;  // seconds of work that are t
 const int halvings = sized(7, 1);
 const std::size_t tiles_of_each = sized<std::size_t>(2000, 20);
 
-/// The least work, in seconds, with which a task is efficient: `seconds_of` tells how long a task with so much takes.
-double least_efficient(const std::function<double(double work)>& seconds_of) {
+/// The least work of a task, in seconds, with which it is efficient; at most `longest` or so is tried. The task is so
+/// many questions, or one, that whoever answers works on; `seconds_of_task` tells how long it takes in all.
+double least_work(std::size_t questions, const std::function<double()>& seconds_of_task) {
+    const auto efficient = [&](double work) {
+        work_of_question() = work / double(questions);
+        return work >= half * seconds_of_task();
+    };
     double least = shortest, most = shortest;
-    const auto efficient = [&](double work) { return work >= half * seconds_of(work); };
     do least = most, most *= 8;
     while (!smoke() && most < longest && !efficient(most));
     for (int i = 0; i < halvings; ++i) {
         const double middle = std::sqrt(least * most);
         (efficient(middle) ? most : least) = middle;
     }
-    return most;
-}
-
-double of_bundles(const std::function<double()>& seconds_of_one) {
-    const double work = least_efficient([&](double of_bundle) {
-        work_of_question() = of_bundle / double(asked_together);
-        return seconds_of_one();
-    });
     work_of_question() = 0;
-    return work;
+    return most;
 }
 
 // Without a goal: there is nothing to measure it by.
@@ -63,7 +59,7 @@ void report(const std::string& name, const std::function<double()>& measure) {
 void report_bundles(const std::string& way, const std::function<double()>& seconds_of_one) {
     std::vector<double> bundle, question;
     for (int round = 0; round < repeated(3); ++round) {
-        bundle.push_back(1e6 * of_bundles(seconds_of_one));
+        bundle.push_back(1e6 * least_work(asked_together, seconds_of_one));
         question.push_back(bundle.back() / double(asked_together));
     }
     quantity("metg.bundle_" + way, bundle, "us of work per bundle of 256", 25, false);
@@ -74,9 +70,8 @@ void measure_bundles(const Picture& picture) {
     const Registry kinds = asking_kinds();
     {
         const Job job = asking_job(picture);
-        const auto network = build_network(job, kinds, LoadedScene{});
         const Plan plan = one_asks_the_other({"", 0}, {"", 1});
-        ThreadedRun run(network, asking_run, plan, job.tuning);
+        ThreadedRun run(build_network(job, kinds, LoadedScene{}), asking_run, plan, job.tuning);
         report_bundles("inproc", [&] { return seconds_of_bundle(run.carrier(), plan); });
         run.stop();
     }
@@ -86,7 +81,8 @@ void measure_bundles(const Picture& picture) {
         hosts.cluster().finish();
     }
     PlainPair plain("tcp://127.0.0.1:*", PlainLoad::packets, asked_together);
-    report("metg.bundle_plain", [&] { return of_bundles([&] { return seconds_of_plain_bundle(plain); }); });
+    report("metg.bundle_plain",
+           [&] { return least_work(asked_together, [&] { return seconds_of_plain_bundle(plain); }); });
 }
 
 /// Renders nothing, for as long as it is told to.
@@ -106,19 +102,12 @@ Registry busy_kinds() {
 }
 
 Job busy_job(const Picture& picture) {
-    Job job;
-    job.scene = picture.job.scene;
-    job.files = picture.job.files;
-    job.isa = picture.job.isa;
-    job.width = job.height = 1;
-    job.graph.file = "metg.lua";
-    job.graph.nodes = {{"busy",
-                        "Busy",
-                        {},
-                        {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{1.0}, Value{1.0}}, {}}}}},
-                        {}},
-                       {"scene", "Scene", {Value{job.scene}}, {}, {}}};
-    return job;
+    return picture.of_nodes(
+        "metg.lua", {{"busy",
+                      "Busy",
+                      {},
+                      {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{1.0}, Value{1.0}}, {}}}}},
+                      {}}});
 }
 
 Plan both_render(const PlaceAt& first, const PlaceAt& second) {
@@ -144,28 +133,18 @@ double seconds_of_tile(Carrier& carrier, const Plan& plan) {
            double(tiles_of_each);
 }
 
-double of_tiles(const std::function<double()>& seconds_of_one) {
-    const double work = least_efficient([&](double of_tile) {
-        work_of_question() = of_tile;
-        return seconds_of_one();
-    });
-    work_of_question() = 0;
-    return work;
-}
-
 void measure_tiles(const Picture& picture) {
     const Registry kinds = busy_kinds();
     {
         const Job job = busy_job(picture);
-        const auto network = build_network(job, kinds, LoadedScene{});
         const Plan plan = both_render({"", 0}, {"", 1});
-        ThreadedRun run(network, asking_run, plan, job.tuning);
-        report("metg.tile_inproc", [&] { return of_tiles([&] { return seconds_of_tile(run.carrier(), plan); }); });
+        ThreadedRun run(build_network(job, kinds, LoadedScene{}), asking_run, plan, job.tuning);
+        report("metg.tile_inproc", [&] { return least_work(1, [&] { return seconds_of_tile(run.carrier(), plan); }); });
         run.stop();
     }
     TwoHosts hosts(kinds, picture, asking_run, busy_job(picture), both_render);
     report("metg.tile_tcp",
-           [&] { return of_tiles([&] { return seconds_of_tile(hosts.cluster(), hosts.cluster().plan()); }); });
+           [&] { return least_work(1, [&] { return seconds_of_tile(hosts.cluster(), hosts.cluster().plan()); }); });
     hosts.cluster().finish();
 }
 

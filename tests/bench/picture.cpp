@@ -5,6 +5,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "core/base/hash.hpp"
 #include "core/film/film.hpp"
@@ -37,6 +38,18 @@ Picture::Picture(const Registry& registry, std::uint32_t size, std::uint32_t sam
     network = build_network(job, registry, LoadedScene{std::move(scene)});
     image = renderer_of(job.graph, registry);
     tiles = tiles_of(size, size, tile_size, samples);
+}
+
+Job Picture::of_nodes(const std::string& file, std::vector<Node> nodes) const {
+    Job other;
+    other.scene = job.scene;
+    other.files = job.files;
+    other.isa = job.isa;
+    other.width = other.height = 1;
+    other.graph.file = file;
+    other.graph.nodes = std::move(nodes);
+    other.graph.nodes.push_back({"scene", "Scene", {Value{job.scene}}, {}, {}});
+    return other;
 }
 
 Pixels render_serially(const Picture& picture, std::size_t first, std::size_t step) {

@@ -27,6 +27,8 @@ struct Picture {
     Picture(const Registry& registry, std::uint32_t size, std::uint32_t samples);
     /// Colours per pixel.
     std::size_t width() const { return network->width_of(image); }
+    /// One of a single pixel, whose nodes are others. Its hosts read the scene of this one.
+    Job of_nodes(const std::string& file, std::vector<Node> nodes) const;
 };
 
 /// All pixels of some tiles, tile by tile.

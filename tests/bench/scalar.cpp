@@ -100,21 +100,14 @@ Registry kinds() {
 }
 
 Job scalar_job(const Picture& picture) {
-    Job job;
-    job.scene = picture.job.scene;
-    job.files = picture.job.files;
-    job.isa = picture.job.isa;
-    job.width = job.height = 1;
-    job.graph.file = "scalar.lua";
-    job.graph.nodes = {{"answerer", "Echo", {}, {}, {}},
+    return picture.of_nodes(
+        "scalar.lua", {{"answerer", "Echo", {}, {}, {}},
                        {"patient", "Patient", {Value{NodeRef{"answerer"}}}, {}, {}},
                        {"asker",
                         "Watch",
                         {Value{NodeRef{"patient"}}},
                         {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{1.0}, Value{1.0}}, {}}}}},
-                        {}},
-                       {"scene", "Scene", {Value{job.scene}}, {}, {}}};
-    return job;
+                        {}}});
 }
 
 Plan asked_elsewhere(const PlaceAt& first, const PlaceAt& second) {
