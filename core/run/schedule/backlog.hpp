@@ -57,6 +57,16 @@ public:
     const Item* find(WorkId work) const;
     /// Null also when it does not wait.
     Item* find_waiting(WorkId work);
+    /// Takes what stands in a queue now off it, and calls action(item) for what still waits of it, which may put it
+    /// back.
+    template <class Action>
+    void take_each(Queue& queue, const Action& action) {
+        for (auto left = queue.size(); left > 0; --left) {
+            const auto work = queue.front();
+            queue.pop_front();
+            if (auto* const item = find_waiting(work)) action(*item);
+        }
+    }
     bool knows(WorkId work) const { return find(work) != nullptr; }
     bool is_under_way(WorkId work) const { return find(work) && !find(work)->copies.empty(); }
     /// Work that is not done.

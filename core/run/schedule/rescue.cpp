@@ -42,22 +42,19 @@ bool Rescue::put_off(Replica replica, Time now) {
 
 // Overdue work may well be under way: whoever is busy has better things to do.
 void Rescue::ask_idle(Time now) {
-    auto& overdue = state_.backlog.queues.overdue;
-    for (auto left = overdue.size(); left > 0; --left) {
-        const auto work = overdue.front();
-        overdue.pop_front();
-        auto* const item = state_.backlog.find_waiting(work);
-        if (!item) continue;
+    auto& queues = state_.backlog.queues;
+    state_.backlog.take_each(queues.overdue, [&](Item& item) {
+        const auto work = item.work.work;
         if (state_.suspects.is_suspect(work)) {
             state_.suspects.wait(work);
-        } else if (item->written_off.empty()) {  // who had it is gone
-            state_.backlog.queues.first.push_front(work);
-        } else if (const auto idle = idle_for(*item)) {
-            state_.send(*item, *idle, now);
+        } else if (item.written_off.empty()) {  // who had it is gone
+            queues.first.push_front(work);
+        } else if (const auto idle = idle_for(item)) {
+            state_.send(item, *idle, now);
         } else {
-            overdue.push_back(work);
+            queues.overdue.push_back(work);
         }
-    }
+    });
 }
 
 // One that has not got this work already, unless nobody else is there.
@@ -86,30 +83,30 @@ void Rescue::fail(Item& item) {
     const auto work = item.work.work;
     const bool goes_on = item.under_way_or_waiting();
     if (item.failed_at.size() >= 2 || (!goes_on && !can_be_retried(item))) {
-        state_.actions->push_back(ScheduleTerms::GiveUp{work});
-        return state_.finish(work);
+        return give_up(work);
     }
     ++state_.counts.retried;
     state_.actions->push_back(ScheduleTerms::Retry{work});
     if (!goes_on) state_.wait_again(item);
 }
 
+void Rescue::give_up(ScheduleIds::WorkId work) {
+    state_.actions->push_back(ScheduleTerms::GiveUp{work});
+    state_.finish(work);
+}
+
 void Rescue::retry(Time now) {
     auto& retries = state_.backlog.queues.retries;
-    for (auto left = retries.size(); left > 0; --left) {
-        const auto work = retries.front();
-        retries.pop_front();
-        auto* const item = state_.backlog.find_waiting(work);
-        if (!item) continue;
-        if (const auto best = best_allowed(*item)) {
-            state_.send(*item, *best, now);
-        } else if (can_be_retried(*item)) {
+    state_.backlog.take_each(retries, [&](Item& item) {
+        const auto work = item.work.work;
+        if (const auto best = best_allowed(item)) {
+            state_.send(item, *best, now);
+        } else if (can_be_retried(item)) {
             retries.push_back(work);
         } else {
-            state_.actions->push_back(ScheduleTerms::GiveUp{work});
-            state_.finish(work);
+            give_up(work);
         }
-    }
+    });
 }
 
 // The first in order of those that may answer it now.

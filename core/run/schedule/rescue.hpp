@@ -32,6 +32,7 @@ private:
     bool put_off(Replica replica, Time now);
     std::optional<Replica> idle_for(const Item& item);
     bool can_be_retried(const Item& item) const;
+    void give_up(ScheduleIds::WorkId work);
     std::optional<Replica> best_allowed(const Item& item) const;
     Item* first_suspect();
     bool is_busy(Host host) const;
