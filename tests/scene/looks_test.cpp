@@ -11,20 +11,6 @@ namespace {
 
 using namespace test;
 
-/// The unit square at z = 0, texture coordinates x and y.
-Mesh square() {
-    Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    return mesh;
-}
-
-TextureId picture(SceneData& data, std::uint32_t width, std::uint32_t height, const std::vector<Rgb>& pixels) {
-    ImageTexture image;
-    image.image = std::make_shared<const Image>(width, height, pixels);
-    data.textures.emplace_back().pattern = image;
-    return TextureId(data.textures.size() - 1);
-}
-
 /// The point of the square at (x, y), 0 < y < x < 1: on the first triangle.
 SurfacePoint at(const Shading& shading, float x, float y) { return shading.point(0, 0, x - y, y); }
 
@@ -51,7 +37,7 @@ float across(const SceneData& data) {
 TEST(Grooves, AreTurnedFromTheDirectionInWhichUGrows) {
     SceneData data;
     const auto metal = grooved_metal(data);
-    add(data, square(), material(data, metal));
+    add(data, textured_square(), material(data, metal));
     EXPECT_GT(across(data), 5) << "rougher along y";
     auto along_u = metal;
     along_u.grooves.along = {1, 0};
@@ -81,8 +67,8 @@ TEST(Grooves, GoTheOtherWayWhereTexturesAreMirrored) {
         return bsdf.evaluate(up, normalize({0.4f, 0.4f, 1}), lobe::all).r /
                bsdf.evaluate(up, normalize({0.4f, -0.4f, 1}), lobe::all).r;
     };
-    EXPECT_GT(diagonal(square()), 5);
-    Mesh mirrored = square();
+    EXPECT_GT(diagonal(textured_square()), 5);
+    Mesh mirrored = textured_square();
     for (Vec2& uv : mirrored.uvs) uv.y = 1 - uv.y;
     EXPECT_LT(diagonal(mirrored), 0.2f);
 }
@@ -94,7 +80,7 @@ TEST(Coats, MayHaveANormalOfTheirOwn) {
     lacquer.specular = 0;
     lacquer.clearcoat = 1;
     lacquer.clearcoat_roughness = {0.2f, 0.2f, {}, Roughness::Means::square};
-    add(data, square(), material(data, lacquer));
+    add(data, textured_square(), material(data, lacquer));
     const Vec3 n = normalize({0.3f, 0.1f, 1});
     const auto map = picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}});
     const auto brightest = [&](Vec3 normal) {  // looks along the normal

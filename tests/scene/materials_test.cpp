@@ -18,20 +18,6 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-/// The unit square at z = 0, texture coordinates x and y.
-Mesh square() {
-    Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    return mesh;
-}
-
-TextureId picture(SceneData& data, std::uint32_t width, std::uint32_t height, const std::vector<Rgb>& pixels) {
-    ImageTexture image;
-    image.image = std::make_shared<const Image>(width, height, pixels);
-    data.textures.emplace_back().pattern = image;
-    return TextureId(data.textures.size() - 1);
-}
-
 /// The point of the square at (x, y), 0 < y < x < 1: on the first triangle.
 SurfacePoint at(const Shading& shading, float x, float y) { return shading.point(0, 0, x - y, y); }
 
@@ -40,7 +26,7 @@ constexpr Vec3 up{0, 0, 1};
 TEST(Materials, MixAsTheirAmountSays) {
     SceneData data;
     const auto first = diffuse(data, 0.8f), second = diffuse(data, 0.2f);
-    add(data, square(), material(data, MixtureMaterial{first, second, colour(data, {0.25f, 0.25f, 0.25f})}));
+    add(data, textured_square(), material(data, MixtureMaterial{first, second, colour(data, {0.25f, 0.25f, 0.25f})}));
     const Shading shading(data);
     const auto [value, pdf] = shading.bsdf(at(shading, 0.5f, 0.2f)).value_and_pdf(up, up, lobe::all);
     EXPECT_NEAR(value.r * pi, 0.65f, 1e-6f);
@@ -51,7 +37,7 @@ TEST(Materials, MixMixtures) {
     SceneData data;
     const auto half = colour(data, {0.5f, 0.5f, 0.5f});
     const auto inner = material(data, MixtureMaterial{diffuse(data, 0.8f), diffuse(data, 0.4f), half});
-    add(data, square(), material(data, MixtureMaterial{inner, diffuse(data, 0), half}));
+    add(data, textured_square(), material(data, MixtureMaterial{inner, diffuse(data, 0), half}));
     const Shading shading(data);
     EXPECT_NEAR(shading.bsdf(at(shading, 0.5f, 0.2f)).evaluate(up, up, lobe::all).r * pi, 0.3f, 1e-6f);
 }
@@ -114,7 +100,7 @@ TEST(Materials, WithoutTheirTexturesAreRefused) {
 TEST(Materials, MayDifferFromBehind) {
     SceneData data;
     const auto front = diffuse(data, 0.8f), back = diffuse(data, 0.2f);
-    add(data, square(), material(data, TwoFacedMaterial{front, back}));
+    add(data, textured_square(), material(data, TwoFacedMaterial{front, back}));
     const Shading shading(data);
     const Bsdf bsdf = shading.bsdf(at(shading, 0.5f, 0.2f));
     EXPECT_NEAR(bsdf.evaluate(up, up, lobe::all).r * pi, 0.8f, 1e-6f);
@@ -124,7 +110,7 @@ TEST(Materials, MayDifferFromBehind) {
 
 TEST(Materials, MayBeBlackFromBehind) {
     SceneData data;
-    add(data, square(), diffuse(data, 0.8f));
+    add(data, textured_square(), diffuse(data, 0.8f));
     data.materials[0].one_sided = true;
     const Shading shading(data);
     const Bsdf bsdf = shading.bsdf(at(shading, 0.5f, 0.2f));
@@ -141,7 +127,7 @@ TEST(Materials, KnowTheirLobesWhereTheseAreTheSameEverywhere) {
     const auto eta = colour(data, {0.2f, 0.9f, 1.5f}), k = colour(data, {3.9f, 2.4f, 1.9f});
     const auto known = [&](auto model) {
         SceneData one = data;
-        add(one, square(), material(one, model));
+        add(one, textured_square(), material(one, model));
         const Shading shading(one);
         const std::uint8_t everywhere = shading.lobes(0);
         for (const float x : {0.25f, 0.75f}) {
@@ -167,7 +153,7 @@ TEST(Materials, TakeRoughnessFromTextures) {
     ConductorMaterial metal;
     metal.metal.reflectance = colour(data, {0.9f, 0.9f, 0.9f});
     metal.roughness = {0.5f, 0.5f, picture(data, 2, 1, {{0, 0, 0}, {1, 1, 1}}), Roughness::Means::square};
-    add(data, square(), material(data, metal));
+    add(data, textured_square(), material(data, metal));
     const Shading shading(data);
     EXPECT_EQ(shading.bsdf(at(shading, 0.25f, 0.2f)).lobes(), lobe::specular);
     const Bsdf rough = shading.bsdf(at(shading, 0.75f, 0.2f));
@@ -179,7 +165,7 @@ TEST(Materials, TakeRoughnessFromTextures) {
 
 TEST(Materials, AbsorbBehindTheSurfaceOfSolidGlass) {
     SceneData data;
-    add(data, square(), material(data, DielectricMaterial{}));
+    add(data, textured_square(), material(data, DielectricMaterial{}));
     data.materials[0].absorption = {1, 2, 3};
     const Shading shading(data);
     const Bsdf bsdf = shading.bsdf(at(shading, 0.5f, 0.2f));
@@ -193,7 +179,7 @@ TEST(Materials, AbsorbBehindTheSurfaceOfSolidGlass) {
 
 TEST(Opacity, DecidesByItsCutoff) {
     SceneData data;
-    add(data, square(), diffuse(data, 0.5f));
+    add(data, textured_square(), diffuse(data, 0.5f));
     data.materials[0].opacity = picture(data, 2, 1, {{0.3f, 0, 0}, {0.7f, 0, 0}});
     data.materials[0].opacity_cutoff = 0.5f;
     const Shading shading(data);
@@ -204,7 +190,7 @@ TEST(Opacity, DecidesByItsCutoff) {
 
 TEST(Opacity, LetsThroughItsShareAndAlwaysTheSame) {
     SceneData data;
-    add(data, square(), diffuse(data, 0.5f));
+    add(data, textured_square(), diffuse(data, 0.5f));
     data.materials[0].opacity = colour(data, {0.3f, 0, 0});
     const Shading shading(data);
     int there = 0;
@@ -220,8 +206,8 @@ TEST(Opacity, LetsThroughItsShareAndAlwaysTheSame) {
 
 TEST(Opacity, IsNothingWhereThereIsNoMaterial) {
     SceneData data;
-    add(data, square(), material(data, NoMaterial{}));
-    add(data, square(), diffuse(data, 0.5f));
+    add(data, textured_square(), material(data, NoMaterial{}));
+    add(data, textured_square(), diffuse(data, 0.5f));
     const Shading shading(data);
     EXPECT_TRUE(shading.has_holes(0));
     EXPECT_FALSE(shading.is_there(0, 0, 0.2f, 0.2f));
@@ -238,7 +224,7 @@ Vec3 normal_under(const SceneData& data, float x, float y) {
 TEST(NormalMaps, TurnTheNormalAlongTheTexture) {
     SceneData data;
     const Vec3 n = normalize({0.2f, 0.1f, 1});
-    add(data, square(), mirror(data, 1));
+    add(data, textured_square(), mirror(data, 1));
     data.materials[0].normal_map = picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}});
     EXPECT_NEAR(length(normal_under(data, 0.5f, 0.2f) - n), 0, 1e-5f);
     data.materials[0].normal_scale = 0;
@@ -248,7 +234,7 @@ TEST(NormalMaps, TurnTheNormalAlongTheTexture) {
 TEST(NormalMaps, KnowTexturesThatAreLaidTheOtherWayRound) {
     SceneData data;
     const Vec3 n = normalize({0.2f, 0.1f, 1});
-    Mesh mesh = square();
+    Mesh mesh = textured_square();
     for (Vec2& uv : mesh.uvs) uv.x = 1 - uv.x;
     add(data, mesh, mirror(data, 1));
     data.materials[0].normal_map = picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}});
@@ -257,7 +243,7 @@ TEST(NormalMaps, KnowTexturesThatAreLaidTheOtherWayRound) {
 
 TEST(NormalMaps, LetNoLightThrough) {
     SceneData data;
-    add(data, square(), diffuse(data, 1));
+    add(data, textured_square(), diffuse(data, 1));
     data.materials[0].normal_map = picture(data, 1, 1, {{0.99f, 0.5f, 0.3f}});  // points into the surface
     const Shading shading(data);
     const Bsdf bsdf = shading.bsdf(at(shading, 0.5f, 0.2f));
@@ -273,7 +259,7 @@ TEST(NormalMaps, LetNoLightThrough) {
 
 TEST(BumpMaps, AreSlopesOfTheirHeights) {
     SceneData data;
-    add(data, square(), mirror(data, 1));
+    add(data, textured_square(), mirror(data, 1));
     std::vector<Rgb> ramp;  // rises by 0.2 m per metre along x
     for (int x = 0; x < 64; ++x) ramp.push_back({0.2f * (float(x) + 0.5f) / 64, 0, 0});
     data.materials[0].bump_map = picture(data, 64, 1, ramp);
@@ -282,7 +268,7 @@ TEST(BumpMaps, AreSlopesOfTheirHeights) {
 
 TEST(BumpMaps, MayLieBelowTheSurface) {
     SceneData data;
-    add(data, square(), mirror(data, 1));
+    add(data, textured_square(), mirror(data, 1));
     std::vector<Rgb> ramp;
     for (int x = 0; x < 64; ++x) ramp.push_back({0.2f * (float(x) + 0.5f) / 64, 0, 0});
     const TextureId heights = picture(data, 64, 1, ramp);
@@ -294,7 +280,7 @@ TEST(BumpMaps, MayLieBelowTheSurface) {
 // A ramp twice as long as the square, across its texture coordinates.
 TEST(BumpMaps, FollowPlacesWhereTheirTexturesDo) {
     SceneData data;
-    add(data, square(), mirror(data, 1));
+    add(data, textured_square(), mirror(data, 1));
     std::vector<Rgb> ramp;
     for (int x = 0; x < 64; ++x) ramp.push_back({0.2f * (float(x) + 0.5f) / 64, 0, 0});
     Matrix across;
@@ -316,7 +302,7 @@ TEST(Textures, OfHolesAndLampsMayFollowPlaces) {
     const TextureId cubes(data.textures.size() - 1);
     const auto grey = diffuse(data, 0.5f);
     data.materials[grey].opacity = cubes;
-    add(data, square(), grey);
+    add(data, textured_square(), grey);
     data.shapes[0].emission = AreaEmission{.radiance = {2, 2, 2}, .texture = cubes};
     const Scene scene(data);
     const auto hit = [&](float x, float y) { return scene.intersect({{x, y, 3}, {0, 0, -1}}); };
@@ -346,7 +332,7 @@ TEST(BumpMaps, OnBallsFollowLongitudeAndLatitude) {
 // Twice as wide, the same heights are half as steep.
 TEST(BumpMaps, GrowFlatterWithTheirInstance) {
     SceneData data;
-    add(data, square(), mirror(data, 1));
+    add(data, textured_square(), mirror(data, 1));
     std::vector<Rgb> ramp;
     for (int x = 0; x < 64; ++x) ramp.push_back({0.2f * (float(x) + 0.5f) / 64, 0, 0});
     data.materials[0].bump_map = picture(data, 64, 1, ramp);
@@ -364,7 +350,7 @@ TEST(BumpMaps, GrowFlatterWithTheirInstance) {
 
 TEST(VertexColours, AreMixedOverTheTriangle) {
     SceneData data;
-    Mesh mesh = square();
+    Mesh mesh = textured_square();
     mesh.colours = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
     data.textures.emplace_back().pattern = VertexColour{};
     add(data, mesh, material(data, DiffuseMaterial{}));

@@ -12,20 +12,6 @@ namespace {
 
 using namespace test;
 
-/// The unit square at z = 0, texture coordinates x and y.
-Mesh square() {
-    Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    return mesh;
-}
-
-TextureId picture(SceneData& data, std::uint32_t width, std::uint32_t height, const std::vector<Rgb>& pixels) {
-    ImageTexture image;
-    image.image = std::make_shared<const Image>(width, height, pixels);
-    data.textures.emplace_back().pattern = image;
-    return TextureId(data.textures.size() - 1);
-}
-
 /// The shading normal on the first triangle under a map, found by the mirror's direction.
 Vec3 normal_under(const SceneData& data) {
     constexpr Vec3 up{0, 0, 1};
@@ -38,7 +24,7 @@ TEST(VertexTangents, TurnNormalMaps) {
     const Vec3 n = normalize({0.2f, 0.1f, 1});
     for (const float hand : {1.0f, -1.0f}) {
         SceneData data;
-        Mesh mesh = square();
+        Mesh mesh = textured_square();
         mesh.tangents.assign(mesh.positions.size(), {{0, 1, 0}, hand});
         add(data, mesh, mirror(data, 1));
         data.materials[0].normal_map = picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}});
@@ -48,7 +34,7 @@ TEST(VertexTangents, TurnNormalMaps) {
 
 TEST(VertexValues, AreMixedOverTheTriangle) {
     SceneData data;
-    Mesh mesh = square();
+    Mesh mesh = textured_square();
     mesh.values.alphas = {1, 0, 0.5f, 0};
     mesh.values.uvs = {{{0, 0}, {0, 0}, {0, 0}, {0, 0}}, {{0, 0}, {1, 0}, {0, 2}, {0, 0}}};
     const auto picture_of_uv = picture(data, 2, 1, {{0, 0, 0}, {1, 0, 0}});

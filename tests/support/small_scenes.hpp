@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/scene/data/scene_data.hpp"
 
@@ -43,6 +45,20 @@ inline Mesh quad(Vec3 corner, Vec3 a, Vec3 b) {
     mesh.positions = {corner, corner + a, corner + a + b, corner + b};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     return mesh;
+}
+
+/// The unit square at z = 0, texture coordinates x and y.
+inline Mesh textured_square() {
+    Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    return mesh;
+}
+
+inline TextureId picture(SceneData& data, std::uint32_t width, std::uint32_t height, const std::vector<Rgb>& pixels) {
+    ImageTexture image;
+    image.image = std::make_shared<const Image>(width, height, pixels);
+    data.textures.emplace_back().pattern = image;
+    return TextureId(data.textures.size() - 1);
 }
 
 inline Sphere ball(Vec3 center, float radius) {
