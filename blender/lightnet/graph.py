@@ -26,7 +26,7 @@ mattes = {"CryptoObject": "object", "CryptoMaterial": "material"}
 def text_of(lighting, size, samples, noise=0, groups=None, shown=(), ranks=6, transparent=False, clean=False):
     """A graph of `scene.xml` beside it. groups: names of lamps by group; shown: names of passes."""
     groups = groups if lighting in by_groups else None
-    learning = size[0] * size[1] * samples // 24 + 64
+    learning = max(60000, size[0] * size[1] * samples // 24)  # as graphs/guided.lua
     lines = ['scene = Scene { "scene.xml"' + (f", groups = {table(groups)}" if groups else "") + " }"]
     on = "groups = true" if groups else ""
     lines.append(operators[lighting].format(groups=on, and_groups=f", {on}" if on else "", learning=learning))

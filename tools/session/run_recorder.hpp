@@ -74,9 +74,9 @@ public:
     void alert(const std::string& text);
     /// What the files of the picture say of it beside its pixels.
     void describe(PictureWords words) { words_ = std::move(words); }
-    /// How the PNG shows the picture; `exposed`: that has an exposure which somebody has chosen.
     /// Where the picture goes as arrays of NumPy; "": nowhere.
     void keep_arrays(const std::string& npz) { arrays_ = npz; }
+    /// How the PNG shows the picture; `exposed`: that has an exposure which somebody has chosen.
     void show_png(const PngRequest& png, bool exposed) { png_ = png, exposed_ = exposed; }
     /// By this, logs of hosts call the run, too.
     void name_run(std::uint64_t number);
