@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cassert>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/estimate/gather_each.hpp"

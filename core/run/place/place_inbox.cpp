@@ -8,11 +8,15 @@
 #include "core/run/place/full_bundle.hpp"
 
 namespace lightnet {
+namespace {
 
+// Preparing, or a rehearsal.
 bool is_learning(const Message& ask) {
     const auto* tiles = std::get_if<Questions<Tile>>(&ask.questions);
     return std::holds_alternative<Questions<Step>>(ask.questions) || (tiles && (*tiles)->front().rehearses());
 }
+
+}  // namespace
 
 PlaceInbox::PlaceInbox(Lent lent)
     : at_(lent), nodes_(at_.network.graph.nodes.size()), by_rank_(at_.network.graph.nodes.size()) {

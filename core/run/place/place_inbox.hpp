@@ -16,9 +16,6 @@
 
 namespace lightnet {
 
-/// Preparing, or a rehearsal.
-bool is_learning(const Message& ask);
-
 /// A bundle whose node has no fiber running is always given one; those of the lowest rank (the longest way down to a
 /// node that asks nobody) go first. One place's.
 class PlaceInbox {
