@@ -25,7 +25,7 @@ class Workplace:
     def path(cls):
         if cls.folder is None:
             memory = "/dev/shm"
-            cls.folder = tempfile.mkdtemp(prefix="lightnet-", dir=memory if os.access(memory, os.W_OK) else None)
+            cls.folder = tempfile.mkdtemp(prefix=f"lightnet-{os.getpid()}-", dir=memory if os.access(memory, os.W_OK) else None)
         return cls.folder
 
     @classmethod

@@ -17,7 +17,8 @@ import scenes  # noqa: E402
 
 
 def folders():
-    return set(glob.glob("/dev/shm/lightnet-*") + glob.glob(os.path.join(tempfile.gettempdir(), "lightnet-*")))
+    """Those of this process in memory, where others are beside it, and all in its own folder for temporary files (run.sh)."""
+    return set(glob.glob(f"/dev/shm/lightnet-{os.getpid()}-*") + glob.glob(os.path.join(tempfile.gettempdir(), "lightnet-*")))
 
 
 def prepared(samples=16):
