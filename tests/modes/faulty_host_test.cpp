@@ -30,21 +30,28 @@ void await_others() {
     while (!others_answer && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(1ms);
 }
 
+std::atomic<bool> has_failed{false};
+
 // Passes light on, where it is not in trouble.
 class Fragile final : public LightOp {
 public:
     Fragile(const NodeContext& here, Trouble trouble) : inputs_(here.inputs()), trouble_(trouble) {}
     void prepare(Services&) override {
-        if (trouble_ == Trouble::preparing) throw std::bad_alloc();
+        if (trouble_ == Trouble::preparing) fail();
     }
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         if (trouble_ == Trouble::answering) await_others();
-        if (trouble_ == Trouble::answering) throw std::bad_alloc();
+        if (trouble_ == Trouble::answering) fail();
         for (const Part& part : ask_all(inputs_, questions)) add(part, answers);
         others_answer = true;
     }
 
 private:
+    [[noreturn]] static void fail() {
+        has_failed = true;
+        throw std::bad_alloc();
+    }
+
     Inputs inputs_;
     Trouble trouble_;
 };
@@ -66,7 +73,8 @@ protected:
                 node("fragile", "Fragile", {ref("direct")}), node("image", "RayTracer", {ref("fragile")}, seen())};
     }
     // Each host holds everything, or (`spread_out`) operators are spread round about.
-    std::vector<Pixels> render_on(const std::vector<std::string>& endpoints, bool spread_out) {
+    std::vector<Pixels> render_on(const std::vector<std::string>& endpoints, bool spread_out,
+                                  std::chrono::milliseconds patience = test::slowdown * 20s) {
         const std::atomic<bool> never{false};
         auto options = cluster_of(learning, endpoints);
         if (!spread_out)
@@ -75,7 +83,7 @@ protected:
             };
         options.say = [this](const std::string& text) { said += text + "\n"; };
         Cluster cluster(std::move(options));
-        cluster.gather(test::slowdown * 20s, never);
+        cluster.gather(patience, never);
         auto pixels = learning.networked(cluster);
         cluster.finish();
         return pixels;
@@ -118,6 +126,38 @@ TEST_P(FaultyHost, EndsTheRunWhenItIsTheOnlyOne) {
     others_answer = true;
     HostThread one(sick, 2, folder.file("one"));
     EXPECT_THROW(render_on({one.endpoint()}, false), Error);
+}
+
+// A place where nobody is yet.
+std::string free_endpoint(const Registry& kinds, const std::string& cache) {
+    return HostThread(kinds, 1, cache).endpoint();
+}
+
+TEST_P(FaultyHost, DoesNotEndTheRunWhileAnotherIsComing) {
+    const auto expected = learning.serial();
+    others_answer = true, has_failed = false;
+    HostThread one(sick, 1, folder.file("one"));
+    Host::Options later;
+    later.listen = free_endpoint(healthy, folder.file("two")), later.cache = folder.file("two");
+    std::unique_ptr<HostThread> two;
+    std::jthread comes([&] {
+        while (!has_failed) std::this_thread::sleep_for(1ms);
+        two = std::make_unique<HostThread>(healthy, later);
+    });
+    EXPECT_EQ(render_on({one.endpoint(), later.listen}, false, test::slowdown * 3s), expected);
+    EXPECT_THAT(said, HasSubstr(one.endpoint() + " is taken out: "));
+}
+
+TEST_P(FaultyHost, EndsTheRunWhenTheOtherDoesNotCome) {
+    others_answer = true;
+    HostThread one(sick, 1, folder.file("one"));
+    const auto nobody = free_endpoint(healthy, folder.file("two"));
+    try {
+        render_on({one.endpoint(), nobody}, false, 500ms);
+        FAIL() << "nobody noticed";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("there is not enough memory"));
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Trouble, FaultyHost, ::testing::Values(Trouble::preparing, Trouble::answering),

@@ -263,6 +263,32 @@ TEST_F(SchedulerTest, GivesUpAtOnceWhatFailsAtTheOnlyHost) {
     EXPECT_TRUE(did<Scheduler::GiveUp>());
 }
 
+TEST_F(SchedulerTest, KeepsWhatFailsAtTheOnlyHostForOneThatIsExpected) {
+    tell(Scheduler::HostsExpected{true});
+    join(0);
+    add(1);
+    tick();
+    tell(Scheduler::Failed{copies.at({1, 0})});
+    EXPECT_TRUE(did<Scheduler::Retry>());
+    EXPECT_TRUE(tick().empty()) << "the one that failed is not asked again";
+    join(1);
+    EXPECT_EQ(tick(), (Replicas{1}));
+    reply(1, 1);
+    EXPECT_TRUE(did<Scheduler::Accept>());
+}
+
+TEST_F(SchedulerTest, GivesUpWhatFailedWhenTheHostThatWasExpectedDoesNotCome) {
+    tell(Scheduler::HostsExpected{true});
+    join(0);
+    add(1);
+    tick();
+    tell(Scheduler::Failed{copies.at({1, 0})});
+    EXPECT_FALSE(did<Scheduler::GiveUp>());
+    tell(Scheduler::HostsExpected{false});
+    tick();
+    EXPECT_TRUE(did<Scheduler::GiveUp>());
+}
+
 TEST_F(SchedulerTest, GivesUpWhatFailedWhenTheOtherHostsAreLostMeanwhile) {
     join(0), join(1);
     add(1), add(2);

@@ -18,6 +18,7 @@ Cluster::~Cluster() = default;
 void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around) {
     const auto begun = Clock::now();
     links_->hold_until = begun + patience.absent;
+    links_->expect_until = begun + 2 * patience.absent;
     HostWait host_wait(patience, begun);
     while (!cancelled) {
         wait(std::chrono::milliseconds(20));
@@ -151,6 +152,8 @@ bool Cluster::take_out(const std::string& host, const std::string& why) {
     links_->tell_changes();
     return out;
 }
+
+bool Cluster::expects_hosts() const { return links_->expects_hosts(); }
 
 bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {
     if (packet::goes_along(bytes)) return true;

@@ -120,6 +120,7 @@ public:
     std::optional<Message> receive() override;
     void wait(std::chrono::nanoseconds most) override;
     bool take_out(const std::string& host, const std::string& why) override;
+    bool expects_hosts() const override;
     void doubt(const Failure& lie) override;
     void forget(const PlaceAt&) override {}
     bool bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) override;

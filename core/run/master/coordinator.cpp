@@ -195,7 +195,7 @@ void Coordinator::failed(const Sent& sent, const std::string& why) {
     const auto all = copies(position);
     const bool others =
         std::any_of(all.begin(), all.end(), [&](const NodeCopy& copy) { return !hosts.contains(copy.place.host); });
-    if (hosts.size() > 1 || !others) throw Error(why);
+    if (hosts.size() > 1 || !(others || expects_hosts())) throw Error(why);
     if (!carrier_.take_out(host, why)) throw Error(why);
 }
 

@@ -78,6 +78,7 @@ public:
     void wait(std::chrono::nanoseconds most) override;
     void give_up(std::uint32_t channel) override;
     bool take_out(const std::string& host, const std::string& why) override { return carrier_.take_out(host, why); }
+    bool expects_hosts() const override { return carrier_.expects_hosts(); }
     void doubt(const Failure& lie) override { carrier_.doubt(lie); }
     std::uint64_t pulse(const std::string& host) const override { return carrier_.pulse(host); }
     void forget(const PlaceAt& place) override { carrier_.forget(place); }

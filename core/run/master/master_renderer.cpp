@@ -128,6 +128,7 @@ void MasterRenderer::show(std::vector<Tile> tiles) const {
 }
 
 void MasterRenderer::hand_out() {
+    replicas_.expect_hosts(carrier_.expects_hosts());
     replicas_.foresee(left_);
     while (left_ > 0 && replicas_.has_credit()) {
         auto tiles = std::make_shared<const std::vector<Tile>>(take_next());

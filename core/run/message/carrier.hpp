@@ -31,8 +31,10 @@ public:
     /// From now on everybody asks by this plan. For carriers that propose plans.
     virtual void adopt(const Plan&) {}
     /// Work failed at `host` that others can do: from now on it gets none. False: that can't be, as there is
-    /// nobody else.
+    /// nobody else, nor expected.
     virtual bool take_out(const std::string& /*host*/, const std::string& /*why*/) { return false; }
+    /// May hosts that take no part yet still come? Until none will, failures at those that do are no reason to end.
+    virtual bool expects_hosts() const { return false; }
     /// Somebody has answered falsely: all that he has said in this run is in doubt.
     virtual void doubt(const Failure& /*lie*/) {}
     /// A number that grows while places of `host` work, as far as is known; 0: it is not.

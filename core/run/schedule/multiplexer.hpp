@@ -79,6 +79,8 @@ public:
     /// From now on, these. Those of them that are `draining` answer what they have, and are asked no more; they may be
     /// so, or not, again and again. Those that are missing were lost, unless they were draining.
     void use(std::vector<Channel<Question>*> channels, const std::vector<Channel<Question>*>& draining = {});
+    /// Whether hosts may still join: until none will, what only those that are there have failed at waits for them.
+    void expect_hosts(bool more);
     /// So many more questions will come: until then it is not the end of a phase.
     void foresee(std::size_t questions) { tell(Scheduler::Foreseen{questions}); }
     /// Are as many replicas idle as have something to do?
@@ -198,6 +200,7 @@ private:
     std::unordered_map<Scheduler::CopyId, Hash> expected_;  // of copies whose work is done, when checking
     Scheduler::WorkId next_work_ = 1;
     double next_pulse_ = 0;  // seconds of the clock
+    bool more_hosts_ = false;
 };
 
 }  // namespace lightnet

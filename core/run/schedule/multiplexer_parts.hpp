@@ -42,6 +42,11 @@ void Multiplexer<Question>::use(std::vector<Channel<Question>*> channels,
 }
 
 template <class Question>
+void Multiplexer<Question>::expect_hosts(bool more) {
+    if (std::exchange(more_hosts_, more) != more) tell(Scheduler::HostsExpected{more});
+}
+
+template <class Question>
 void Multiplexer<Question>::add_replica(Channel<Question>* channel) {
     if (free_slots_.empty()) {
         free_slots_.push_back(static_cast<Scheduler::Replica>(slots_.size()));

@@ -67,11 +67,11 @@ std::optional<Rescue::Replica> Rescue::idle_for(const Item& item) {
 
 // ---- failures ----
 
-// Does another host hold it that has not failed, and is not leaving?
+// Does another host hold it that has not failed, and is not leaving? Or may one come?
 bool Rescue::can_be_retried(const Item& item) const {
     constexpr int most_failures = 3;  // of suspects, which may come to the same host again
-    return item.failed_at.size() < 2 && item.failures < most_failures &&
-           std::ranges::any_of(state_.book.on_hosts(), [&](const auto& host) {
+    if (item.failed_at.size() >= 2 || item.failures >= most_failures) return false;
+    return state_.more_hosts || std::ranges::any_of(state_.book.on_hosts(), [&](const auto& host) {
                return item.may_be_answered_at(host.first) &&
                       std::ranges::any_of(host.second, [&](auto replica) { return !state_.book[replica].draining; });
            });

@@ -46,6 +46,7 @@ struct ScheduleState {
     ReplicaBook book;
     ReplicaOrder order;
     Stragglers stragglers;
+    bool more_hosts = false;  // may still join
     std::vector<ScheduleIds::Replica> refused;
     ScheduleTerms::Counts counts;
     std::size_t questions_doubled = 0;

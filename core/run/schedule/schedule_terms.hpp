@@ -52,6 +52,9 @@ struct ScheduleTerms : ScheduleIds {
         bool reserve = false;         // the asker itself: asked only when others can't be, or are late
         bool within_process = false;  // of the asker: nothing can be lost on the way
     };
+    struct HostsExpected {  // others may still join, or none will
+        bool more;
+    };
     struct Resized {  // it has other places behind it, or more or fewer
         Replica replica;
         std::uint32_t places;
@@ -87,8 +90,8 @@ struct ScheduleTerms : ScheduleIds {
     struct Tick {  // time to decide. `again`: at once after the last one, as something was refused
         bool again = false;
     };
-    using Event = std::variant<Added, Foreseen, Joined, Resized, Draining, Gone, Replied, Failed, Alive, Refused,
-                               Dropped, Forgotten, Tick>;
+    using Event = std::variant<Added, Foreseen, Joined, HostsExpected, Resized, Draining, Gone, Replied, Failed, Alive,
+                               Refused, Dropped, Forgotten, Tick>;
 
     // ---- what is to be done ----
     struct Send {
@@ -115,7 +118,7 @@ struct ScheduleTerms : ScheduleIds {
         WorkId work;
         friend bool operator==(const Retry&, const Retry&) = default;
     };
-    struct GiveUp {  // a second host has failed, too, or there is none that may be asked
+    struct GiveUp {  // a second host has failed, too, or there is none that may be asked, nor will be
         WorkId work;
         friend bool operator==(const GiveUp&, const GiveUp&) = default;
     };

@@ -22,6 +22,7 @@ public:
     void operator()(const Terms::Added& event);
     void operator()(const Terms::Foreseen& event) { state_.backlog.foresee(event.questions); }
     void operator()(const Terms::Joined& event);
+    void operator()(const Terms::HostsExpected& event) { state_.more_hosts = event.more; }
     void operator()(const Terms::Resized& event);
     void operator()(const Terms::Draining& event);
     void operator()(const Terms::Gone& event);
