@@ -6,43 +6,34 @@
 #include <variant>
 
 #include "core/base/in_quotes.hpp"
-#include "core/base/math/frame.hpp"
 #include "core/readers/common/light_profile.hpp"
+#include "core/readers/common/turns.hpp"
 
 namespace lightnet {
 namespace {
 
-/// Turns the luminaire's own axes, whose straight down is -z.
-Matrix hung(Vec3 down) {
-    const Frame frame = Frame::around(-down);
-    Matrix turn;
-    const Vec3 axes[] = {frame.x, frame.y, frame.z};
-    for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t i = 0; i < 3; ++i) turn.m[i][j] = double{axes[j][i]};
-    return turn;
+PointLight shaped(const PointLight& light, const LightProfile& profile, const std::optional<Vec3>& down) {
+    const Matrix luminaire = down ? hung(*down) : light.luminaire;
+    return {light.position, light.intensity, light.label, pattern_of(profile, luminaire), luminaire};
 }
-
-PointLight shaped(const PointLight& light, const LightProfile& profile, Vec3 up) {
-    return {light.position, light.intensity, light.label, pattern_of(profile, hung(-up))};
-}
-PointLight shaped(const SpotLight& light, const LightProfile& profile, Vec3) {
-    return {light.position, light.intensity, light.label, pattern_of(profile, hung(light.axis))};
+PointLight shaped(const SpotLight& light, const LightProfile& profile) {
+    return {light.position, light.intensity, light.label, pattern_of(profile, light.luminaire), light.luminaire};
 }
 
 /// None: it comes from infinity.
-std::optional<BareLight> shaped(const BareLight& light, const LightProfile& profile, Vec3 up) {
-    if (const auto* point = std::get_if<PointLight>(&light)) return shaped(*point, profile, up);
-    if (const auto* spot = std::get_if<SpotLight>(&light)) return shaped(*spot, profile, up);
+std::optional<BareLight> shaped(const BareLight& light, const LightProfile& profile, const std::optional<Vec3>& down) {
+    if (const auto* point = std::get_if<PointLight>(&light)) return shaped(*point, profile, down);
+    if (const auto* spot = std::get_if<SpotLight>(&light)) return shaped(*spot, profile);
     return std::nullopt;
 }
 
 /// Also at later steps, where it moves.
-bool shape(SceneData& scene, std::size_t which, const LightProfile& profile, Vec3 up) {
-    const auto made = shaped(scene.lights[which], profile, up);
+bool shape(SceneData& scene, std::size_t which, const LightProfile& profile, const std::optional<Vec3>& down) {
+    const auto made = shaped(scene.lights[which], profile, down);
     if (!made) return false;
     scene.lights[which] = *made;
     for (BareLight& step : SceneMotion::steps_after(scene.motion.lights, which))
-        if (const auto then = shaped(step, profile, up)) step = *then;
+        if (const auto then = shaped(step, profile, down)) step = *then;
     return true;
 }
 
@@ -62,8 +53,8 @@ std::optional<LightProfile> profile_in(const std::string& path, Files& files, st
 
 }  // namespace
 
-void put_profiles(std::span<const ProfileOverride> profiles, Vec3 up, SceneData& scene, Files& files,
-                  const SourceLine& where) {
+void put_profiles(std::span<const ProfileOverride> profiles, const std::optional<Vec3>& down, SceneData& scene,
+                  Files& files, const SourceLine& where) {
     std::vector<Problem> problems;
     std::set<std::size_t> done;
     for (const auto& [lamp, path] : profiles) {
@@ -77,7 +68,7 @@ void put_profiles(std::span<const ProfileOverride> profiles, Vec3 up, SceneData&
         for (const std::size_t which : lights) {
             if (!done.insert(which).second)
                 fault = "a lamp called " + in_quotes(lamp) + " has another profile already";
-            else if (profile && !shape(scene, which, *profile, up))
+            else if (profile && !shape(scene, which, *profile, down))
                 fault = "a lamp called " + in_quotes(lamp) + " is a sun: it has no profile";
         }
         if (!fault.empty()) problems.push_back({where, "'ies': " + fault});

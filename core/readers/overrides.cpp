@@ -93,8 +93,9 @@ void look_as_wanted(const SceneOverrides& overrides, SceneData& scene, const Sou
     if (overrides.camera) change_camera(scene, *overrides.camera, where);
 }
 
-/// The axis of the world that is up for the camera: scenes stand on z or on y.
+/// Up as the format has it; else the axis of the world that is up for the camera: scenes stand on z or on y.
 Vec3 upwards(const SceneData& scene) {
+    if (scene.up) return *scene.up;
     const Vec3 up = scene.camera_given ? column(scene.camera.to_world, 1) : Vec3{0, 1, 0};
     const Vec3 size{std::fabs(up.x), std::fabs(up.y), std::fabs(up.z)};
     if (size.y >= size.x && size.y >= size.z) return {0, up.y < 0 ? -1.0f : 1.0f, 0};
@@ -188,6 +189,13 @@ void put_fog(const FogOverride& wanted, SceneData& scene, const SourceLine& wher
     scene.around = index;
 }
 
+std::optional<Vec3> direction_down(const SceneOverrides& overrides, const SourceLine& where) {
+    if (!overrides.profiles_down) return std::nullopt;
+    const float size = length(*overrides.profiles_down);
+    if (!(size > 0)) throw UserError(where, "'ies_down' must be a direction, not { 0, 0, 0 }");
+    return *overrides.profiles_down / size;
+}
+
 }  // namespace
 
 std::optional<Onlooker> look_again(const SceneOverrides& overrides, const SceneData& changed, const SourceLine& where) {
@@ -196,9 +204,9 @@ std::optional<Onlooker> look_again(const SceneOverrides& overrides, const SceneD
     scene.camera_given = changed.as_read.given;
     scene.film = changed.as_read.film;
     scene.cameras = changed.cameras;
+    scene.up = changed.up;
     look_as_wanted(overrides, scene, where);
-    const bool stands_by_camera =
-        overrides.sky || !overrides.profiles.empty() || std::holds_alternative<std::string>(overrides.environment);
+    const bool stands_by_camera = overrides.sky || std::holds_alternative<std::string>(overrides.environment);
     if (!scene.camera_given || (stands_by_camera && !(upwards(scene) == upwards(changed)))) return std::nullopt;
     scene.film.scale *= std::exp2(overrides.exposure);
     return Onlooker{scene.camera, true, scene.film};
@@ -224,7 +232,8 @@ void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, cons
     if (overrides.clay) make_clay(scene);
     if (overrides.two_sided)
         for (auto& material : scene.materials) material.one_sided = false;
-    if (!overrides.profiles.empty()) put_profiles(overrides.profiles, upwards(scene), scene, files, where);
+    if (!overrides.profiles.empty())
+        put_profiles(overrides.profiles, direction_down(overrides, where), scene, files, where);
     if (overrides.groups.empty()) return;
     std::vector<Problem> problems;
     for (auto& mistake : sort_lamps(scene, overrides.groups)) problems.push_back({where, "'groups': " + mistake});

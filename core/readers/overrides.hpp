@@ -55,6 +55,7 @@ struct SceneOverrides {
     bool two_sided = false;           // none is black from behind
     std::vector<LampGroup> groups{};  // of lamps
     std::vector<ProfileOverride> profiles{};
+    std::optional<Vec3> profiles_down{};  // straight down of points with profiles, world space; else their own -z
 };
 
 /// Who would look at a scene, which was changed by other overrides, by these: they differ in the camera alone. None: it

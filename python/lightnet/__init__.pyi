@@ -656,6 +656,8 @@ class Scene(Node):
         groups of lamps, each the names of its lamps, * for any part of one; what is in none is in 'rest'
     ies: table of names
         profiles of luminaires (.ies) for points and spots, by the lamps' names, * for any part of one
+    ies_down: numbers
+        straight down of points with such profiles, in world space; else -z of their own axes in the file
     two_sided: flag
         surfaces that the file has black from behind (Mitsuba's, without a twosided) look alike on both sides
     """
@@ -680,6 +682,7 @@ class Scene(Node):
         material: Literal["clay"] | None = ...,
         groups: Mapping[str, str | Sequence[str]] | None = ...,
         ies: Mapping[str, str | Sequence[str]] | None = ...,
+        ies_down: Sequence[float] | None = ...,
         two_sided: bool | None = ...,
         name: str | None = ...,
     ) -> None: ...

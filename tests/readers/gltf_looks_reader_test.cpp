@@ -10,6 +10,7 @@ namespace lightnet::test::gltf_looks_reader_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 const std::string map = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x40\x20\x81", 4);
@@ -91,6 +92,46 @@ TEST(GltfExtensions, OfMaterialsMayBeRequired) {
                       std::string(R"("extensionsRequired":[")") + name + R"("],"extensionsUsed":[")" + name +
                       R"("],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"),
                   "");
+}
+
+SceneData seen_by(const std::string& cameras) {
+    return read_as(
+        "a.glb",
+        triangle_text().file(
+            R"("nodes":[{"mesh":0},{"camera":0,"translation":[0,0,5]},{"camera":1}],"scenes":[{"nodes":[0,1,2]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"cameras":[)" +
+            cameras + "],"));
+}
+
+// the triangle lies 5 before the first camera
+TEST(GltfCameras, SeeNothingBeforeAndBeyondTheirPlanes) {
+    const auto scene = seen_by(R"({"type":"perspective","perspective":{"yfov":1,"znear":6,"zfar":9}},
+        {"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0,"zfar":9}})");
+    EXPECT_EQ(scene.camera.nearest, 6);
+    EXPECT_EQ(scene.cameras.at(0).camera.nearest, 6);
+    EXPECT_EQ(scene.cameras.at(1).camera.nearest, 0) << "where nothing is cut, rays begin at the eye";
+    EXPECT_GT(scene.camera.farthest, 1e30f);
+    const auto near = seen_by(R"({"type":"perspective","perspective":{"yfov":1,"znear":1,"zfar":4}},
+        {"type":"perspective","perspective":{"yfov":1,"znear":1}})");
+    EXPECT_EQ(near.camera.farthest, 4);
+    EXPECT_GT(near.cameras.at(1).camera.farthest, 1e30f) << "without zfar it sees for ever";
+}
+
+TEST(GltfSpots, ReachHalfOfAllDirections) {
+    const auto spot = [](const std::string& cone) {
+        return read_as("a.glb",
+                       triangle_text().file(R"("nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}}],
+            "scenes":[{"nodes":[0,1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"extensionsUsed":["KHR_lights_punctual"],
+            "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","spot":{)" +
+                                            cone + "}}]}},"));
+    };
+    const auto half = spot(R"("innerConeAngle":0.5,"outerConeAngle":1.5707963267948966)");
+    EXPECT_FLOAT_EQ(std::get<SpotLight>(half.lights.at(0)).outer, 1.5707963f);
+    EXPECT_THAT(half.warnings, IsEmpty());
+    const auto wider = spot(R"("outerConeAngle":2)");
+    EXPECT_FLOAT_EQ(std::get<SpotLight>(wider.lights.at(0)).outer, 1.5707963f);
+    EXPECT_THAT(warnings_of(wider), HasSubstr("a spot of glTF reaches 90 degrees at most, π/2: its light ends there"));
+    EXPECT_THAT(warnings_of(spot(R"("innerConeAngle":1,"outerConeAngle":0.5)")), HasSubstr("ends sharply"));
 }
 
 }  // namespace

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/lamps/environment.hpp"
-#include "tests/support/light_profile_text.hpp"
 #include "tests/support/memory_files.hpp"
 
 namespace lightnet::overrides_test {
@@ -190,6 +188,20 @@ TEST(SceneOverrides, PutASkyAroundWithItsSun) {
     EXPECT_TRUE(changed(old, overrides).lights.empty());
 }
 
+TEST(SceneOverrides, KeepTheSkyUpWhereTheFormatSaysWhatIsUp) {
+    SceneOverrides overrides;
+    overrides.sky = SkyOverride{};
+    SceneData from_above = with_camera();  // which looks straight down: up in its picture is -z
+    from_above.camera.to_world.m = {{{1, 0, 0, 0}, {0, 0, -1, 5}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
+    EXPECT_GT(std::get<DirectionalLight>(changed(from_above, overrides).lights.at(0)).direction.z, 0);
+    from_above.up = Vec3{0, 1, 0};
+    const auto scene = changed(from_above, overrides);
+    EXPECT_NEAR(std::get<DirectionalLight>(scene.lights.at(0)).direction.y, -std::sqrt(0.5f), 1e-6f);
+    auto elsewhere = overrides;
+    elsewhere.camera.emplace().up = Vec3{1, 0, 0};
+    EXPECT_TRUE(look_again(elsewhere, scene, {})) << "no camera changes that";
+}
+
 TEST(SceneOverrides, PutTheSunAboveTheHorizon) {
     SceneOverrides overrides;
     overrides.sky = SkyOverride{};
@@ -244,54 +256,6 @@ TEST(SceneOverrides, TakeBlackBacksAway) {
 }
 
 // Fog is everywhere but in solid glass and in what the file fills.
-// 100 cd straight down, 20 at the horizon
-const std::string downlight = test::light_profile("2 1", "0 90\n0\n100 20");
-
-SceneData with_lamps() {
-    SceneData scene = with_camera();
-    scene.lights = {PointLight{{0, 3, 0}, {2, 1, 1}, {"bulb"}},
-                    SpotLight{{1, 3, 0}, {1, 0, 0}, {1, 1, 1}, 0.1f, 0.2f, {}, {"beam"}},
-                    DirectionalLight{{0, -1, 0}, {1, 1, 1}, {"sun"}}};
-    return scene;
-}
-SceneOverrides profiles(std::vector<ProfileOverride> wanted) {
-    SceneOverrides overrides;
-    overrides.profiles = std::move(wanted);
-    return overrides;
-}
-Rgb towards(const BareLight& light, Vec3 direction) {
-    const auto& point = std::get<PointLight>(light);
-    return point.intensity * Environment(point.pattern.value()).radiance(direction);
-}
-
-TEST(SceneOverrides, LetLampsShineByTheProfilesOfLuminaires) {
-    const test::MemoryFiles files({{"down.ies", downlight}});
-    const auto scene = changed(with_lamps(), profiles({{"bulb", "down.ies"}, {"b*m", "down.ies"}}), files);
-    EXPECT_NEAR(towards(scene.lights[0], {0, -1, 0}).r, 200, 1) << "of a point, down is down";
-    EXPECT_NEAR(towards(scene.lights[0], normalize(Vec3{1, -1, 0})).g, 60, 1);
-    EXPECT_NEAR(towards(scene.lights[1], {1, 0, 0}).r, 100, 1) << "of a spot, it is where that points";
-    EXPECT_NEAR(towards(scene.lights[1], {-1, 0, 0}).r, 0, 1e-3f);
-    EXPECT_EQ(std::get<PointLight>(scene.lights[1]).label.name, "beam");
-    EXPECT_TRUE(std::holds_alternative<DirectionalLight>(scene.lights[2]));
-}
-
-TEST(SceneOverrides, OfProfilesNameLampsThatCanHaveOne) {
-    const test::MemoryFiles files({{"down.ies", downlight}, {"bad.ies", "IESNA"}});
-    const auto error = [&](const std::string& lamp, const std::string& path) {
-        return error_of(with_lamps(), profiles({{lamp, path}}), files);
-    };
-    EXPECT_THAT(error("blub", "down.ies"), HasSubstr("'ies': there is no lamp called 'blub' (did you mean 'bulb'?)"));
-    EXPECT_THAT(error("sun", "down.ies"), HasSubstr("a lamp called 'sun' is a sun: it has no profile"));
-    EXPECT_THAT(error("bulb", "none.ies"), HasSubstr("can't read 'none.ies'"));
-    EXPECT_THAT(error("bulb", "bad.ies"), HasSubstr("can't read 'bad.ies'"));
-    EXPECT_THAT(error_of(with_lamps(), profiles({{"bulb", "down.ies"}, {"b*", "down.ies"}}), files),
-                HasSubstr("has another profile already"));
-    SceneData scene = with_lamps();
-    scene.environments.emplace_back();
-    EXPECT_THAT(error_of(scene, profiles({{"environment", "down.ies"}}), files),
-                HasSubstr("lamp 'environment' is no point and no spot"));
-}
-
 TEST(SceneOverrides, FillSpaceWithFog) {
     SceneData scene = with_camera();
     scene.materials.push_back({"glass", DielectricMaterial{}});

@@ -95,6 +95,16 @@ TEST(PbrtCamera, LooksAlongZWithXToTheRight) {
     expect_near(transform_direction(camera.to_world, {0, 1, 0}), {0, 1, 0});
 }
 
+// at 100000 a float step is 1/128: the eye stands .046875 high, not .05, and looks at the same point from there
+TEST(PbrtCamera, LooksAtItsTargetFromWhereFloatsPutIt) {
+    const auto camera = read_text("LookAt 100000 100000.05 100006  100000 100000 99999.95  0 1 0 Camera \"perspective\" "
+                                  "WorldBegin")
+                            .camera;
+    EXPECT_EQ(transform_point(camera.to_world, {0, 0, 0}), (Vec3{100000, 100000.046875f, 100006}));
+    const Vec3 ahead = transform_direction(camera.to_world, {0, 0, 1});
+    EXPECT_NEAR(ahead.y / ahead.z, 0.046875 / 6.046875, 1e-7);
+}
+
 TEST(PbrtCamera, IsMirroredByAScaleBeforeIt) {
     const auto camera = read_text("Scale -1 1 1 LookAt 1 2 3  1 2 13  0 1 0 Camera \"perspective\" WorldBegin").camera;
     expect_near(transform_point(camera.to_world, {0, 0, 0}), {1, 2, 3});

@@ -72,6 +72,18 @@ TEST(PbrtSpotLights, HaveACone) {
     EXPECT_EQ(lamp.falloff, SpotLight::Falloff::smoothstep);
 }
 
+TEST(PbrtSpotLights, MayBeWiderThanHalfOfAllDirections) {
+    const auto lamp = light<SpotLight>("LightSource \"spot\" \"float coneangle\" 150 \"float conedeltaangle\" 40");
+    EXPECT_NEAR(lamp.inner, 110 * pi / 180, 1e-6f);
+    EXPECT_NEAR(lamp.outer, 150 * pi / 180, 1e-6f);
+}
+
+// pbrt takes the cosine of -5 degrees
+TEST(PbrtSpotLights, AreSoftBeyondTheirAxis) {
+    const auto lamp = light<SpotLight>("LightSource \"spot\" \"float coneangle\" 10 \"float conedeltaangle\" 15");
+    EXPECT_NEAR(lamp.inner, 5 * pi / 180, 1e-6f);
+}
+
 // ∫ smoothstep over the cosine between the two cones is half their difference.
 TEST(PbrtSpotLights, HaveThePowerThatIsAskedFor) {
     const auto lamp = light<SpotLight>("LightSource \"spot\" \"float power\" 30");

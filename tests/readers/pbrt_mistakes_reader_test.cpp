@@ -144,6 +144,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"LightSource \"pont\"", "LightSource 'pont': unknown light 'pont' (did you mean 'point'?)"},
         Mistake{"LightSource \"spot\" \"float coneangle\" 0", "LightSource 'spot': 'coneangle' must be above 0"},
+        Mistake{"LightSource \"spot\" \"float coneangle\" 10 \"float conedeltaangle\" 25",
+                "LightSource 'spot': 'coneangle' must be above 0"},
         Mistake{"LightSource \"distant\" \"point3 to\" [ 0 0 0 ]",
                 "LightSource 'distant': 'from' and 'to' are the same"},
         Mistake{"LightSource \"infinite\" \"point3 portal\" [ 0 2 0  0 2 1  3 2 1  3 2 0.5 ]",

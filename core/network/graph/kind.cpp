@@ -161,6 +161,11 @@ Kind scene_kind() {
          .type = ParamType::named_lists,
          .help = "profiles of luminaires (.ies) for points and spots, by the lamps' names, * for any part of one",
          .optional = true},
+        {.name = "ies_down",
+         .type = ParamType::numbers,
+         .help = "straight down of points with such profiles, in world space; else -z of their own axes in the file",
+         .optional = true,
+         .count = 3},
         {.name = "two_sided",
          .type = ParamType::flag,
          .help =

@@ -88,6 +88,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
     return read_by_assets(files, path, [&, &variant = variant, &moment = moment](Assets& assets) {
         Report& report = assets.report();
         SceneData& scene = assets.scene();
+        scene.up = Vec3{0, 1, 0};
         Document document(assets, path);
         check_extensions(document.root());
         report.check();  // what is packed in unknown ways would only give more errors

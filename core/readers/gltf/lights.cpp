@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "core/readers/common/light_profile.hpp"
+#include "core/readers/common/turns.hpp"
 #include "core/scene/reach.hpp"
 
 namespace lightnet::gltf {
@@ -19,19 +21,24 @@ Vec3 axis_of(const Matrix& t, Vec3 direction) {
     return length(d) > 0 && finite(d) ? normalize(d) : direction;
 }
 
-/// What a node's transform turns, and perhaps mirrors.
-Matrix turn_of(const Matrix& t) {
-    Matrix turn;
-    for (std::size_t j = 0; j < 3; ++j) {
-        const double size = std::hypot(t.m[0][j], t.m[1][j], t.m[2][j]);
-        for (std::size_t i = 0; i < 3; ++i) turn.m[i][j] = size > 0 ? t.m[i][j] / size : (i == j ? 1 : 0);
-    }
-    return turn;
-}
-
 Rgb colour_of(const At& at) {
     const auto colour = at["color"].numbers<3>({1, 1, 1});
     return {float(colour[0]), float(colour[1]), float(colour[2])};
+}
+
+/// Angles from the axis of a spot, radians. glTF has none wider than half of all directions.
+struct Cone {
+    float inner = 0, outer = 0;
+};
+Cone cone_of(const At& spot) {
+    constexpr float widest = std::numbers::pi_v<float> / 2;
+    const float outer = spot["outerConeAngle"].real(std::numbers::pi_v<float> / 4),
+                inner = spot["innerConeAngle"].real(0);
+    const Cone cone{std::clamp(inner, 0.0f, std::clamp(outer, 1e-4f, widest)), std::clamp(outer, 1e-4f, widest)};
+    if (outer > widest * 1.000001f)
+        spot["outerConeAngle"].warn("a spot of glTF reaches 90 degrees at most, π/2: its light ends there");
+    if (inner > outer) spot["innerConeAngle"].warn("it is larger than 'outerConeAngle': the light ends sharply there");
+    return cone;
 }
 
 }  // namespace
@@ -55,13 +62,13 @@ void Lights::punctual(const At& index, const Matrix& to_world, const std::string
     auto& lights = assets_.scene().lights;
     const LampLabel label{node.empty() ? at["name"].text("") : node};
     if (type == "point") {
-        lights.push_back(PointLight{position, strength, label});
+        lights.push_back(PointLight{position, strength, label, {}, turn_of(to_world)});
     } else if (type == "directional") {
         lights.push_back(DirectionalLight{ahead, strength, label});
     } else if (type == "spot") {
-        const float outer = std::clamp(at["spot"]["outerConeAngle"].real(0.785398f), 1e-4f, 1.570796f);
-        const float inner = std::clamp(at["spot"]["innerConeAngle"].real(0), 0.0f, outer);
-        lights.push_back(SpotLight{position, ahead, strength, inner, outer, SpotLight::Falloff::squared_linear, label});
+        const auto [inner, outer] = cone_of(at["spot"]);
+        lights.push_back(SpotLight{
+            position, ahead, strength, inner, outer, SpotLight::Falloff::squared_linear, label, {}, turn_of(to_world)});
     } else {
         at["type"].error("must be point, spot or directional");
     }
@@ -79,8 +86,9 @@ void Lights::luminaire(const At& named, const Matrix& to_world, const std::strin
     const Vec3 position = transform_point(to_world, {0, 0, 0});
     if (!in_reach(position)) return named["light"].error("stands out of reach");
     if (!made) return;
-    PointLight light{position, colour_of(named) * strength, {node.empty() ? at["name"].text("") : node}, *made};
-    light.pattern->to_world = turn_of(to_world) * made->to_world;
+    const LampLabel label{node.empty() ? at["name"].text("") : node};
+    PointLight light{position, colour_of(named) * strength, label, *made, turn_of(to_world)};
+    light.pattern->to_world = light.luminaire * made->to_world;
     assets_.scene().lights.push_back(std::move(light));
 }
 

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
 
+#include "core/readers/common/clipping.hpp"
 #include "core/readers/common/mesh_tools.hpp"
 #include "core/readers/gltf/lights.hpp"
 #include "core/readers/gltf/meshes.hpp"
@@ -43,6 +45,11 @@ struct Pose {
     friend auto operator<=>(const Pose&, const Pose&) = default;
 };
 
+/// Between which planes a camera sees, along its axis.
+struct Depth {
+    float nearest = 0, farthest = 0;
+};
+
 std::vector<double> weights_of(const At& list) {
     std::vector<double> weights(list.size());
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = list[i].number(0);
@@ -75,6 +82,7 @@ public:
         }
         for (const auto& [pose, where] : places)
             if (!assets_.report().full()) add(pose, where);
+        cut();
     }
 
 private:
@@ -237,10 +245,20 @@ private:
         FilmData film = scene.film;
         if (!lens(list[*which], camera, film)) return;
         scene.cameras.push_back({node.empty() ? list[*which]["name"].text("") : node, camera, film});
+        const At planes = list[*which][camera.is_orthographic() ? "orthographic" : "perspective"];
+        depths_.push_back({planes["znear"].real(0), planes["zfar"].real(std::numeric_limits<float>::infinity())});
         if (scene.camera_given) return;
         scene.camera = camera;
         scene.film = film;
         scene.camera_given = true;
+    }
+
+    /// Away what no camera of the file sees, as viewers do, once all meshes are there.
+    void cut() {
+        SceneData& scene = assets_.scene();
+        for (std::size_t i = 0; i < depths_.size(); ++i)
+            clip(scene.cameras[i].camera, depths_[i].nearest, depths_[i].farthest, scene);
+        if (!depths_.empty()) scene.camera = scene.cameras[0].camera;
     }
 
     bool lens(const At& at, CameraData& camera, FilmData& film) {
@@ -275,6 +293,7 @@ private:
     Assets& assets_;
     Materials materials_;
     Lights lights_;
+    std::vector<Depth> depths_;  // of the scene's cameras
     At nodes_;
     std::optional<WorldOfNodes> world_of_nodes_;  // once a skin asks
     std::uint64_t baked_ = 0;                     // triangles

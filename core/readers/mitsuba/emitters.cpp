@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/turns.hpp"
 #include "core/readers/daylight/daylight.hpp"
 #include "core/readers/daylight/sun_position.hpp"
 #include "core/readers/mitsuba/colours.hpp"
@@ -35,14 +36,11 @@ Matrix half_turn() {
     return t;
 }
 
-/// Without scale, so that only the turning of an environment is left.
-Matrix rotation_of(Matrix t) {
-    for (std::size_t j = 0; j < 3; ++j) {
-        const double size = std::hypot(t.m[0][j], t.m[1][j], t.m[2][j]);
-        for (std::size_t i = 0; i < 3; ++i) t.m[i][j] = size > 0 ? t.m[i][j] / size : (i == j ? 1 : 0);
-        t.m[j][3] = 0;
-    }
-    return t;
+/// A spot of Mitsuba's shines along +z, straight down of a luminaire is -z.
+Matrix luminaire_of_spot(const Matrix& to_world) {
+    Matrix half_turn;
+    half_turn.m[1][1] = half_turn.m[2][2] = -1;
+    return turn_of(to_world * half_turn);
 }
 
 LampLabel label(const Properties& properties) { return {properties.node().id}; }
@@ -50,8 +48,9 @@ LampLabel label(const Properties& properties) { return {properties.node().id}; }
 void point(Properties& properties, Textures&, SceneData& scene) {
     const Matrix to_world = transform_of(properties);
     const Vec3 origin = transform_point(to_world, {0, 0, 0});
+    const Vec3 position = properties.point("position", origin);
     scene.lights.push_back(
-        PointLight{properties.point("position", origin), light_of(properties, "intensity", 1).rgb, label(properties)});
+        PointLight{position, light_of(properties, "intensity", 1).rgb, label(properties), {}, turn_of(to_world)});
 }
 
 /// A texture as a picture, upright as Mitsuba has it: pixel by pixel where it is one, else of 512 by 512; at most of
@@ -82,7 +81,7 @@ void add_slide(SpotLight& light, const Node& given, Textures& textures, const Ma
         return;
     }
     const float tangent = std::tan(light.outer);
-    light.slide = Slide{picture_of(context.assets.scene(), texture), rotation_of(to_world), tangent, tangent, false};
+    light.slide = Slide{picture_of(context.assets.scene(), texture), turn_of(to_world), tangent, tangent, false};
 }
 
 void spot(Properties& properties, Textures& textures, SceneData& scene) {
@@ -90,6 +89,7 @@ void spot(Properties& properties, Textures& textures, SceneData& scene) {
     SpotLight light;
     light.position = transform_point(to_world, {0, 0, 0});
     light.axis = unit(transform_direction(to_world, {0, 0, 1}), {0, 0, 1});
+    light.luminaire = luminaire_of_spot(to_world);
     light.intensity = light_of(properties, "intensity", 1).rgb;
     const float cutoff = std::clamp(properties.number("cutoff_angle", 20), 0.01f, 180.0f);
     const float beam = std::clamp(properties.number("beam_width", cutoff * 0.75f), 0.0f, cutoff);
@@ -110,9 +110,10 @@ void projector(Properties& properties, Textures& textures, SceneData& scene) {
     SpotLight light;
     light.position = transform_point(to_world, {0, 0, 0});
     light.axis = unit(transform_direction(to_world, {0, 0, 1}), {0, 0, 1});
+    light.luminaire = luminaire_of_spot(to_world);
     light.intensity = {strength, strength, strength};
     light.label = label(properties);
-    Slide slide{picture_of(scene, textures.of_light(*given)), rotation_of(to_world)};
+    Slide slide{picture_of(scene, textures.of_light(*given)), turn_of(to_world)};
     for (std::size_t i = 0; i < 3; ++i)  // as a camera's picture, whose right is -x and whose top +y
         slide.to_world.m[i][0] *= -1, slide.to_world.m[i][1] *= -1;
     const Extent extent = extent_of(properties, slide.image->width, slide.image->height);
@@ -152,7 +153,7 @@ void environment_map(Properties& properties, Textures&, SceneData& scene) {
     EnvironmentData environment;
     const float scale = properties.number("scale", 1), gamma = properties.number("gamma", -1);
     environment.radiance = {scale, scale, scale};
-    environment.to_world = rotation_of(transform_of(properties)) * half_turn();
+    environment.to_world = turn_of(transform_of(properties)) * half_turn();
     const Node* file = properties.find("filename");
     properties.ignore({"cache", "max_anisotropy"});
     if (!file) return context.error(properties.node(), "an envmap needs a 'filename'");
@@ -189,7 +190,7 @@ TimeAndPlace time_and_place(Properties& properties) {
 Daylight daylight_of(Properties& properties) {
     const auto& context = properties.context();
     const bool third = context.document.version >= 3;
-    const Matrix turn = rotation_of(transform_of(properties));
+    const Matrix turn = turn_of(transform_of(properties));
     Daylight day;
     day.up = transform_direction(turn, third ? Vec3{0, 0, 1} : Vec3{0, 1, 0});
     if (properties.has("sun_direction")) {

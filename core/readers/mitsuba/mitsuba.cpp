@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/readers/mitsuba/clipping.hpp"
+#include "core/readers/common/clipping.hpp"
 #include "core/readers/mitsuba/emitters.hpp"
 #include "core/readers/mitsuba/sensors.hpp"
 #include "core/readers/mitsuba/shapes.hpp"
@@ -48,7 +48,7 @@ public:
     void finish() {
         SceneData& scene = context_.assets.scene();
         for (std::size_t i = 0; i < depths_.size(); ++i)
-            clip(scene.cameras[i].camera, depths_[i].nearest, depths_[i].farthest, context_);
+            clip(scene.cameras[i].camera, depths_[i].nearest, depths_[i].farthest, scene);
         if (depths_.empty()) return;
         scene.camera.nearest = scene.cameras[0].camera.nearest;
         scene.camera.farthest = scene.cameras[0].camera.farthest;

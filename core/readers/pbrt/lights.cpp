@@ -10,6 +10,7 @@
 
 #include "core/base/suggestion.hpp"
 #include "core/readers/common/light_profile.hpp"
+#include "core/readers/common/turns.hpp"
 #include "core/readers/pbrt/older_light.hpp"
 #include "core/readers/pbrt/pictured_lights.hpp"
 #include "core/readers/pbrt/transforms.hpp"
@@ -109,7 +110,7 @@ void point_light(const Making& making) {
     auto colour = strength(making.parameters, making.sources, "I");
     const Vec3 from = transform_point(making.to_world, point(making.parameters, "from", {}));
     if (const auto power = power_of(making); power && colour) *colour *= *power / (4 * float_pi);
-    if (colour) making.scene.lights.push_back(PointLight{from, *colour, making.label});
+    if (colour) making.scene.lights.push_back(PointLight{from, *colour, making.label, {}, turn_of(making.to_world)});
 }
 
 void spot_light(const Making& making) {
@@ -117,21 +118,24 @@ void spot_light(const Making& making) {
     auto colour = strength(parameters, making.sources, "I");
     const Vec3 from = point(parameters, "from", {}), to = point(parameters, "to", {0, 0, 1});
     const auto axis = axis_of(making, from, to);
-    const float outer = parameters.number("coneangle", 30), inner = outer - parameters.number("conedeltaangle", 5);
-    if (!(outer > 0 && outer <= 180 && inner <= outer)) {
-        parameters.error("'coneangle' must be above 0 and at most 180 degrees, and 'conedeltaangle' not negative");
+    const float outer = parameters.number("coneangle", 30), width = parameters.number("conedeltaangle", 5);
+    if (!(outer > 0 && outer <= 180 && width >= 0 && width <= 2 * outer)) {
+        parameters.error(
+            "'coneangle' must be above 0 and at most 180 degrees, and 'conedeltaangle' from 0 to twice that");
         return;
     }
+    const float inner = std::fabs(outer - width);  // pbrt knows it by its cosine alone
     SpotLight light;
     light.position = transform_point(making.to_world, from);
     if (making.sources.older()) light.falloff = SpotLight::Falloff::fourth_power;
-    light.inner = std::max(inner, 0.0f) * float_pi / 180, light.outer = outer * float_pi / 180;
+    light.inner = inner * float_pi / 180, light.outer = outer * float_pi / 180;
     if (const auto power = power_of(making); power && colour) {
         const float start = std::cos(light.inner), end = std::cos(light.outer);
         *colour *= *power / (2 * float_pi * ((1 - start) + (start - end) / 2));
     }
     if (!colour || !axis) return;
     light.axis = *axis, light.intensity = *colour, light.label = making.label;
+    light.luminaire = turn_of(making.to_world * hung(normalize(to - from)));
     making.scene.lights.push_back(light);
 }
 
@@ -143,16 +147,10 @@ void distant_light(const Making& making) {
     if (colour && axis) making.scene.lights.push_back(DirectionalLight{*axis, *colour, making.label});
 }
 
-/// Of the matrix of an environment, what turns (and perhaps mirrors) it.
+/// What the matrix of a picture around a light turns, and perhaps mirrors.
 Matrix turn_of(const Making& making) {
     if (!uniform_scale(making.to_world)) making.parameters.warn("an environment is turned, but not stretched");
-    Matrix turn;
-    for (int j = 0; j < 3; ++j) {
-        double square = 0;
-        for (int i = 0; i < 3; ++i) square += making.to_world.m[i][j] * making.to_world.m[i][j];
-        for (int i = 0; i < 3; ++i) turn.m[i][j] = square > 0 ? making.to_world.m[i][j] / std::sqrt(square) : i == j;
-    }
-    return turn;
+    return turn_of(making.to_world);
 }
 
 // pbrt's rectangle, whose corners are in world space whatever the transform; light comes in against the cross product
@@ -262,7 +260,8 @@ float mean_over_directions(const EnvironmentData& pattern) {
 
 void goniometric_light(const Making& making) {
     auto colour = strength(making.parameters, making.sources, "I");
-    PointLight light{transform_point(making.to_world, {}), {}, making.label, goniogram(making)};
+    PointLight light{
+        transform_point(making.to_world, {}), {}, making.label, goniogram(making), turn_of(making.to_world)};
     if (const auto power = power_of(making); power && colour) {
         const float mean = light.pattern ? mean_over_directions(*light.pattern) : 1;
         *colour *= mean > 0 ? *power / (4 * float_pi * mean) : 0;
@@ -288,6 +287,7 @@ void projection_light(const Making& making) {
     light.position = transform_point(making.to_world, {});
     light.label = making.label;
     light.axis = *axis;
+    light.luminaire = turn_of(making.to_world * hung({0, 0, 1}));
     light.intensity = *colour;
     Slide slide{image, turn_of(making)};
     // the angle is that of the shorter side; pbrt's picture has its first row at -y

@@ -44,8 +44,11 @@ std::optional<Matrix> rotation(double degrees, double x, double y, double z) {
     return r;
 }
 
-// pbrt's camera space is left-handed: x to the right of the image, y up, z into it
-std::optional<Matrix> look_at(std::span<const double, 9> n) {
+// pbrt's camera space is left-handed: x to the right of the image, y up, z into it. Its numbers are floats: far from the
+// origin an eye between two of them would look past what stands there.
+std::optional<Matrix> look_at(std::span<const double, 9> given) {
+    std::array<double, 9> n{};
+    std::ranges::transform(given, n.begin(), [](double number) { return double{static_cast<float>(number)}; });
     const Triple eye{n[0], n[1], n[2]};
     Triple z{n[3] - n[0], n[4] - n[1], n[5] - n[2]}, up{n[6], n[7], n[8]};
     if (!normalize(z) || !normalize(up)) return std::nullopt;

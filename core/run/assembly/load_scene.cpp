@@ -90,6 +90,7 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
         for (const auto& [lamp, files] : std::get<Table>(profiles->second.data).named)
             for (const std::string& file : names_in(files))
                 overrides.profiles.push_back({lamp, beside_graph(graph, file)});
+    overrides.profiles_down = point(params, "ies_down");
     return overrides;
 }
 

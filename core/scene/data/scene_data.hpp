@@ -164,9 +164,10 @@ struct PointLight {
     Rgb intensity;  // W·sr⁻¹
     LampLabel label{};
     std::optional<EnvironmentData> pattern{};  // times this, by the direction into which it shines
+    Matrix luminaire{};                        // turns its own axes, whose straight down is -z, as the file has it
 };
 void visit_members(Is<PointLight> auto& light, const auto& visit) {
-    auto& [position, intensity, label, pattern] = light;
+    auto& [position, intensity, label, pattern, luminaire] = light;
     visit(position, intensity, pattern);
 }
 
@@ -195,9 +196,10 @@ struct SpotLight {
     } falloff = Falloff::smoothstep;
     LampLabel label{};
     std::optional<Slide> slide{};  // times this; z is the axis
+    Matrix luminaire{};            // as that of a point, which shines straight down along the axis
 };
 void visit_members(Is<SpotLight> auto& light, const auto& visit) {
-    auto& [position, axis, intensity, inner, outer, falloff, label, slide] = light;
+    auto& [position, axis, intensity, inner, outer, falloff, label, slide, luminaire] = light;
     visit(position, axis, intensity, inner, outer, falloff, slide);
 }
 
@@ -279,11 +281,12 @@ struct SceneData {
     std::vector<SceneAnimation> animations{};  // that the file holds, whether or not it was read at some time of one
     SceneMotion motion{};                      // while the shutter is open
     std::vector<SceneVariant> variants{};      // that the file has
+    std::optional<Vec3> up{};                  // of the world, where the format says
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
     auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, media,
-           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion, variants] = scene;
+           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion, variants, up] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights, media, around);
     if (!motion.empty()) visit(motion);  // what stands still is what it was before there was any
 }

@@ -1,4 +1,4 @@
-#include "core/readers/mitsuba/clipping.hpp"
+#include "core/readers/common/clipping.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "core/base/math/moved_box.hpp"
 
-namespace lightnet::mitsuba {
+namespace lightnet {
 namespace {
 
 /// The box of each triangle, or of the whole of a round thing.
@@ -44,7 +44,7 @@ void each_part(const SceneData& scene, const std::function<void(const Box&)>& us
 
 }  // namespace
 
-void clip(CameraData& camera, float nearest, float farthest, const Context& context) {
+void clip(CameraData& camera, float before, float beyond, const SceneData& scene) {
     const Vec3 eye = transform_point(camera.to_world, {0, 0, 0}),
                axis = transform_direction(camera.to_world, {0, 0, 1});
     // What can be cut lies beside the axis by no more than the picture's corner does at the plane.
@@ -52,21 +52,21 @@ void clip(CameraData& camera, float nearest, float farthest, const Context& cont
     const float slope = camera.is_orthographic() ? 0 : std::tan(camera.fov * std::numbers::pi_v<float> / 360);
     const float widest = std::hypot(std::max(std::fabs(screen[0]), std::fabs(screen[1])),
                                     std::max(std::fabs(screen[2]), std::fabs(screen[3])));
-    const float aside = (camera.is_orthographic() ? widest : slope * nearest * 16) + camera.lens_radius;
+    const float aside = (camera.is_orthographic() ? widest : slope * before * 16) + camera.lens_radius;
     bool cut = false, far = false;
-    each_part(context.assets.scene(), [&](const Box& box) {
+    each_part(scene, [&](const Box& box) {
         float low = std::numeric_limits<float>::infinity(), high = -low;
         for (int corner = 0; corner < 8; ++corner) {
             const float depth = dot(corner_of(box, corner) - eye, axis);
             low = std::min(low, depth), high = std::max(high, depth);
         }
-        far |= high > farthest;
+        far |= high > beyond;
         const Vec3 middle = box.center(), half = box.size() * 0.5f;
         const Vec3 across = middle - eye - axis * dot(middle - eye, axis);
-        cut |= low < nearest && high > 0 && length(across) < aside + length(half);
+        cut |= low < before && high > 0 && length(across) < aside + length(half);
     });
-    camera.nearest = cut ? nearest : 0;
-    if (far && farthest > nearest) camera.farthest = farthest;
+    camera.nearest = cut ? before : 0;
+    if (far && beyond > before) camera.farthest = beyond;
 }
 
-}  // namespace lightnet::mitsuba
+}  // namespace lightnet
