@@ -26,6 +26,7 @@ packages_of_tests=(
     clang-format                                        # how sources are laid out
     iproute2                                            # network namespaces: hosts of their own
     openssh-client openssh-server python3-yaml          # hosts by ssh; what deploys farms
+    libnoise-dev libgsl-dev                             # what examples wrap
     slurm-client slurmctld slurmd munge                 # a queue
 )
 

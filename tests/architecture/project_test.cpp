@@ -38,6 +38,14 @@ TEST(Project, KeepsDistributionOutOfNodesAndWhatTheyShare) {
         EXPECT_THAT(all_complaints(files_of(room), words_of_distribution), IsEmpty());
 }
 
+TEST(Project, WrapsAClassInFiveLines) {
+    const SourceFile candela = read("nodes/examples/candela/bridge.cpp");
+    EXPECT_THAT(long_wraps(candela, 0), testing::SizeIs(5)) << "its five classes are found";
+    EXPECT_THAT(all_complaints({candela, read("examples/integrators/integrators.cpp")},
+                               [](const SourceFile& file) { return long_wraps(file, 5); }),
+                IsEmpty());
+}
+
 TEST(Project, HasHeadersThatGuardThemselves) { EXPECT_THAT(all_complaints(all_files(), bad_header), IsEmpty()); }
 
 std::vector<SourceFile> product() {

@@ -237,6 +237,27 @@ Complaints questions_for_heads(const SourceFile& file) {
     return {at_line(file, 1, "a noun says what the file holds, not a question")};
 }
 
+Complaints long_wraps(const SourceFile& file, std::size_t most_lines) {
+    static const std::regex wrapping(R"(\bwrap<([\w:]+)>\()");
+    const std::string code = code_only(file.text);
+    Complaints complaints;
+    for (std::sregex_iterator call(code.begin(), code.end(), wrapping), end; call != end; ++call) {
+        const auto line_at = [&](auto where) { return std::count(code.begin(), code.begin() + where, '\n'); };
+        std::ptrdiff_t last = call->position() + call->length();
+        for (int open = 1; open > 0 && last < std::ssize(code); ++last)
+            open += (code[std::size_t(last)] == '(') - (code[std::size_t(last)] == ')');
+        std::set<std::ptrdiff_t> lines;
+        for (auto line = line_at(call->position()); line <= line_at(last); ++line) lines.insert(line);
+        const std::regex name("\\b" + (*call)[1].str() + "\\b");
+        for (std::sregex_iterator use(code.begin(), code.end(), name); use != end; ++use)
+            lines.insert(line_at(use->position()));
+        if (lines.size() > most_lines)
+            complaints.push_back(at_line(file, std::size_t(line_at(call->position())) + 1,
+                                         std::to_string(lines.size()) + " lines wrap " + (*call)[1].str()));
+    }
+    return complaints;
+}
+
 Complaints too_long(const SourceFile& file, std::size_t most_lines) {
     const std::size_t lines = lines_of(file.text).size();
     if (lines <= most_lines) return {};

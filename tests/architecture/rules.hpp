@@ -40,6 +40,10 @@ Complaints borrowed_subjects(const SourceFile& file);
 /// A head of a file that begins with a question ("What …", "How …") where a noun should say what the file holds.
 Complaints questions_for_heads(const SourceFile& file);
 
+/// Classes of other libraries whose wrapping takes more than `most_lines`: the call of wrap<> and all lines outside it
+/// that name the class.
+Complaints long_wraps(const SourceFile& file, std::size_t most_lines);
+
 /// A file of more lines than the house allows.
 Complaints too_long(const SourceFile& file, std::size_t most_lines);
 

@@ -227,5 +227,14 @@ TEST(Heads, SayWhatAFileHolds) {
     EXPECT_THAT(questions_for_heads({"core/a.hpp", "#pragma once\n// How far it is.\n"}), IsEmpty());
 }
 
+TEST(Rules, CountTheLinesThatWrapAClass) {
+    const SourceFile file{
+        "nodes/a.cpp",
+        "template <>\nold::Eye made(World& world) {\n    return {world};\n}\n"
+        "auto kinds() {\n    return wrap<old::Eye>(\"Eye (old::Eye)\",\n        {},\n        with(1));\n}\n"};
+    EXPECT_THAT(long_wraps(file, 4), IsEmpty());
+    EXPECT_THAT(long_wraps(file, 3), ElementsAre("nodes/a.cpp:6: 4 lines wrap old::Eye"));
+}
+
 }  // namespace
 }  // namespace lightnet::house

@@ -203,6 +203,19 @@ Rgb OneByOne::ask(std::size_t index, const std::optional<Query>& question) {
     return {};
 }
 
+Argument<int> count(std::string name, std::string help, double initial) {
+    return {{.name = std::move(name),
+             .type = ParamType::integer,
+             .help = std::move(help),
+             .initial = Value{initial},
+             .least = 1,
+             .most = 65536}};
+}
+
+Argument<double> amount(std::string name, std::string help, double initial) {
+    return {{.name = std::move(name), .help = std::move(help), .initial = Value{initial}, .least = 0}};
+}
+
 Rgb WrappedInstance::light(const Query&) { throw Error("a renderer was asked for light"); }
 Rgb WrappedInstance::sample(const PixelSample&) { throw Error("a light operator was asked for pixels"); }
 

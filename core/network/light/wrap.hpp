@@ -1,7 +1,8 @@
 // Makes a node of a class that was written for something else: one question at a time, one caller, members that change.
 //
 // A library is introduced once, by a Bridge for its classes: how an instance is made, how it is asked, and how it asks
-// its inputs. From then on a class is one line of a registry: wrap<old::Gatherer>("OldGatherer", {.help = "…"}).
+// its inputs. From then on a class is a line or two of a registry, which name what its constructor takes:
+// wrap<old::Gatherer>("OldGatherer", {.help = "…"}, with(&Around::world, count("rays", "directions", 16))).
 #pragma once
 
 #include <concepts>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -57,7 +59,9 @@ private:
 };
 
 /// To be specialised, for one class or for all that some condition holds for. A Bridge<T> is constructed from
-/// (const NodeContext&, OneByOne&) and owns an instance of T; both arguments outlive it. It has
+/// (const NodeContext&, OneByOne&) and owns an instance of T; both arguments outlive it. Where wrap() is told what T's
+/// constructor takes, the Bridge is given a third argument: `make(around)` makes an instance, with what it finds in
+/// `around`, an object of the Bridge's own. It has
 ///     Rgb light(const Query&)    if T is to be a light operator, or
 ///     Rgb sample(const PixelSample&)      if T is to be a renderer: the radiance that arrives, what shines by itself
 ///     included.
@@ -103,13 +107,69 @@ using MakeInstance = std::function<std::unique_ptr<WrappedInstance>(const NodeCo
 Kind wrapped_light(std::string name, Wrapping wrapping, MakeInstance make);
 Kind wrapped_renderer(std::string name, Wrapping wrapping, MakeInstance make);
 
-/// A kind of node that is made of T.
+/// An argument of a wrapped class's constructor that graphs set: a parameter of the node.
 template <class T>
-Kind wrap(std::string name, Wrapping wrapping) {
+struct Argument {
+    Param param;
+};
+/// From 1 to 65536.
+Argument<int> count(std::string name, std::string help, double initial);
+/// From 0.
+Argument<double> amount(std::string name, std::string help, double initial);
+
+/// What the constructor of a wrapped class takes, in its order; with() makes it.
+template <class... Each>
+class Arguments {
+public:
+    explicit Arguments(Each... each) : each_(std::move(each)...) {}
+
+    void add_params(std::vector<Param>& params) const {
+        std::apply([&](const auto&... each) { (add_param(params, each), ...); }, each_);
+    }
+    template <class T, class Around>
+    T make(const NodeContext& here, Around& around) const {
+        return std::apply([&](const auto&... each) { return T{value(here, around, each)...}; }, each_);
+    }
+
+private:
+    template <class T>
+    static void add_param(std::vector<Param>& params, const Argument<T>& argument) {
+        params.push_back(argument.param);
+    }
+    template <class Around, class Member>
+    static void add_param(std::vector<Param>&, Member Around::*) {}
+
+    template <class Around, class Member>
+    static Member& value(const NodeContext&, Around& around, Member Around::*member) {
+        return around.*member;
+    }
+    template <class Around>
+    static int value(const NodeContext& here, Around&, const Argument<int>& argument) {
+        return static_cast<int>(here.integer(argument.param.name));
+    }
+    template <class Around>
+    static double value(const NodeContext& here, Around&, const Argument<double>& argument) {
+        return here.number(argument.param.name);
+    }
+
+    std::tuple<Each...> each_;
+};
+
+/// Members of what the Bridge keeps around an instance (`&Around::world`), which are handed on by reference, and
+/// parameters of graphs (count(), amount()).
+template <class... Each>
+Arguments<Each...> with(Each... each) {
+    return Arguments<Each...>(std::move(each)...);
+}
+
+/// A kind of node that is made of T. `arguments` are those of T's constructor; without any, the Bridge knows them.
+template <class T, class... Each>
+Kind wrap(std::string name, Wrapping wrapping, Arguments<Each...> arguments = Arguments<>()) {
     static_assert(AnswersQuestions<T> || SamplesPixels<T>, "this class has no lightnet::Bridge that can ask it");
     class InstanceOfT final : public WrappedInstance {
     public:
-        explicit InstanceOfT(const NodeContext& here) : one_by_one_(here), bridge_(here, one_by_one_) {}
+        InstanceOfT(const NodeContext& here, const Arguments<Each...>& arguments)
+            : one_by_one_(here), bridge_(bridge(here, one_by_one_, arguments)) {}
         Rgb light([[maybe_unused]] const Query& question) override {
             if constexpr (AnswersQuestions<T>) {
                 one_by_one_.begin(question.stream, question.sample, question.pass);
@@ -126,11 +186,19 @@ Kind wrap(std::string name, Wrapping wrapping) {
         }
 
     private:
+        static Bridge<T> bridge(const NodeContext& here, OneByOne& inputs, const Arguments<Each...>& arguments) {
+            if constexpr (sizeof...(Each) == 0)
+                return Bridge<T>(here, inputs);
+            else
+                return Bridge<T>(here, inputs, [&](auto& around) { return arguments.template make<T>(here, around); });
+        }
+
         OneByOne one_by_one_;
         Bridge<T> bridge_;
     };
-    auto make = [](const NodeContext& here) -> std::unique_ptr<WrappedInstance> {
-        return std::make_unique<InstanceOfT>(here);
+    arguments.add_params(wrapping.params);
+    auto make = [arguments](const NodeContext& here) -> std::unique_ptr<WrappedInstance> {
+        return std::make_unique<InstanceOfT>(here, arguments);
     };
     if constexpr (AnswersQuestions<T>)
         return wrapped_light(std::move(name), std::move(wrapping), make);

@@ -85,37 +85,13 @@ struct CandelaWorld {
     candela::Dice dice;
 };
 
-template <class T>
-T made(const NodeContext& here, CandelaWorld& around);
-
-template <>
-candela::OpenGlow made(const NodeContext& here, CandelaWorld& around) {
-    return {around.world, static_cast<int>(here.integer("rays")), here.number("near")};
-}
-template <>
-candela::DirectGlow made(const NodeContext& here, CandelaWorld& around) {
-    return {around.world, around.world, around.dice, static_cast<int>(here.integer("rays"))};
-}
-template <>
-candela::GatheredGlow made(const NodeContext& here, CandelaWorld& around) {
-    return {around.world, around.input, around.dice, static_cast<int>(here.integer("rays"))};
-}
-template <>
-candela::DimmedGlow made(const NodeContext& here, CandelaWorld& around) {
-    return {around.input, here.number("strength"), here.number("limit")};
-}
-template <>
-candela::Eye made(const NodeContext& here, CandelaWorld& around) {
-    return {around.world, around.input, static_cast<int>(here.integer("mirrors"))};
-}
-
 }  // namespace
 
 /// All classes of the library that glow.
 template <std::derived_from<candela::Glow> T>
 struct Bridge<T> {
-    Bridge(const NodeContext& here, OneByOne& inputs)
-        : scene_(here.scene()), inputs_(inputs), around_(here, inputs), instance_(made<T>(here, around_)) {}
+    Bridge(const NodeContext& here, OneByOne& inputs, const auto& make)
+        : scene_(here.scene()), inputs_(inputs), around_(here, inputs), instance_(make(around_)) {}
 
     Rgb light(const Query& question) {
         around_.lookup.forget();
@@ -134,10 +110,12 @@ private:
     T instance_;
 };
 
-template <>
-struct Bridge<candela::Eye> {
-    Bridge(const NodeContext& here, OneByOne& inputs)
-        : scene_(here.scene()), around_(here, inputs), instance_(made<candela::Eye>(here, around_)) {}
+/// And those that see.
+template <class T>
+requires requires(T& eye, candela::Vec vec) { eye.see(vec, vec); }
+struct Bridge<T> {
+    Bridge(const NodeContext& here, OneByOne& inputs, const auto& make)
+        : scene_(here.scene()), around_(here, inputs), instance_(make(around_)) {}
 
     Rgb sample(const PixelSample& at) {
         around_.lookup.forget();
@@ -148,41 +126,28 @@ struct Bridge<candela::Eye> {
 private:
     const Scene& scene_;
     CandelaWorld around_;
-    candela::Eye instance_;
+    T instance_;
 };
 
-namespace {
-
-Param count(const char* name, const char* help, double initial) {
-    return {
-        .name = name, .type = ParamType::integer, .help = help, .initial = Value{initial}, .least = 1, .most = 65536};
-}
-Param amount(const char* name, const char* help, double initial) {
-    return {.name = name, .help = help, .initial = Value{initial}, .least = 0};
-}
-
-}  // namespace
-
 std::vector<Kind> candela_kinds() {
+    using Around = CandelaWorld;
     return {
-        wrap<candela::DirectGlow>("CandelaDirect",
-                                  {.help = "wrapped example: light straight from lamps, on matt surfaces",
-                                   .params = {count("rays", "points on lamps per question", 1)}}),
-        wrap<candela::GatheredGlow>("CandelaGathered",
-                                    {.help = "wrapped example: light that matt surroundings scatter once",
-                                     .inputs = {1, 1},
-                                     .params = {count("rays", "directions per question", 16)}}),
-        wrap<candela::DimmedGlow>("CandelaDimmed", {.help = "wrapped example: a part of its input, up to a limit",
-                                                    .inputs = {1, 1},
-                                                    .params = {amount("strength", "the part", 1),
-                                                               amount("limit", "the most radiance", 1000)}}),
-        wrap<candela::OpenGlow>("CandelaOpen", {.help = "wrapped example: how open it is around a point",
-                                                .params = {count("rays", "directions per question", 8),
-                                                           amount("near", "what keeps light off, scene units", 100)},
-                                                .alone = "chance"}),
-        wrap<candela::Eye>("CandelaEye", {.help = "wrapped example: follows one ray at a time, through mirrors",
-                                          .inputs = {1, 1},
-                                          .params = {count("mirrors", "in a row that are followed", 8)}}),
+        wrap<candela::DirectGlow>(
+            "CandelaDirect", {.help = "wrapped example: light straight from lamps, on matt surfaces"},
+            with(&Around::world, &Around::world, &Around::dice, count("rays", "points on lamps per question", 1))),
+        wrap<candela::GatheredGlow>(
+            "CandelaGathered", {.help = "wrapped example: light that matt surroundings scatter once", .inputs = {1, 1}},
+            with(&Around::world, &Around::input, &Around::dice, count("rays", "directions per question", 16))),
+        wrap<candela::DimmedGlow>(
+            "CandelaDimmed", {.help = "wrapped example: a part of its input, up to a limit", .inputs = {1, 1}},
+            with(&Around::input, amount("strength", "the part", 1), amount("limit", "the most radiance", 1000))),
+        wrap<candela::OpenGlow>("CandelaOpen",
+                                {.help = "wrapped example: how open it is around a point", .alone = "chance"},
+                                with(&Around::world, count("rays", "directions per question", 8),
+                                     amount("near", "what keeps light off, scene units", 100))),
+        wrap<candela::Eye>("CandelaEye",
+                           {.help = "wrapped example: follows one ray at a time, through mirrors", .inputs = {1, 1}},
+                           with(&Around::world, &Around::input, count("mirrors", "in a row that are followed", 8))),
     };
 }
 
