@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <set>
 
 #include "core/base/error.hpp"
@@ -18,18 +19,10 @@ namespace {
 
 constexpr std::size_t played = 12;        // layouts, the best by the estimate
 constexpr std::size_t few = 40;           // hosts times nodes, for which layouts are played
-constexpr std::size_t all_subsets = 6;    // nodes, of which a host may hold any
-constexpr std::size_t most_heavy = 5;     // nodes whose memory counts, of which a host may hold any
 constexpr std::size_t most_steps = 3e7;   // of all estimates: some hundredths of a second
 constexpr std::size_t most_played = 120;  // layouts, when the best is made better still
+constexpr std::size_t kicks = 40;         // with which it looks beyond the best that steps lead to
 constexpr double clearly_quicker = 0.9;   // than everything everywhere
-
-double memory_of(const RunCosts& costs, const std::vector<bool>& held) {
-    double bytes = 0;
-    for (std::size_t node = 0; node < held.size(); ++node)
-        if (held[node]) bytes += costs.nodes[node].memory;
-    return bytes;
-}
 
 /// Looks for the best layout, host by host.
 class Search {
@@ -39,18 +32,18 @@ public:
           hosts_(hosts),
           launcher_(launcher),
           estimate_(costs, hosts, launcher),
-          all_(costs.nodes.size()) {
-        for (const auto node : costs.order) all_[node] = true;
-    }
+          all_(needed_nodes(costs)),
+          options_(costs, hosts, all_) {}
 
     NodeLayout find() {
         const HeldByHosts everywhere(hosts_.size(), all_);
         const bool fits =
             std::all_of(hosts_.begin(), hosts_.end(), [&](const auto& host) { return has_room(costs_, host, all_); });
         if (fits) consider(everywhere);
-        make_options();
         for (auto start : {covering(true), covering(false)}) descend(std::move(start));
         if (fits) descend(everywhere);
+        for (std::size_t kick = 0; kick < kicks && !best_.empty() && steps_ < most_steps; ++kick)
+            descend(kicked(best_.front().holds));
         if (best_.empty()) throw Error("no layout fits: " + widest());
         return choose(fits ? &everywhere : nullptr);
     }
@@ -68,54 +61,6 @@ private:
         return seconds;
     }
 
-    // With what its nodes take the frozen state of.
-    std::vector<bool> with_taken(std::vector<bool> held) const {
-        for (auto node = costs_.order.rbegin(); node != costs_.order.rend(); ++node)
-            for (const auto& [taker, taken] : costs_.beside)
-                if (taker == *node && held[taker]) held[taken] = true;
-        return held;
-    }
-
-    // Nodes that ask nobody who is not there.
-    std::vector<bool> closed(std::vector<bool> held) const {
-        for (const auto node : costs_.order)
-            for (const auto& edge : costs_.edges)
-                if (edge.from == node && !held[edge.to]) held[node] = false;
-        return held;
-    }
-
-    void add_option(std::size_t host, const std::vector<bool>& held) {
-        const auto whole = with_taken(held);
-        if (!has_room(costs_, hosts_[host], whole)) return;
-        auto& options = options_[host];
-        if (std::find(options.begin(), options.end(), whole) == options.end()) options.push_back(whole);
-    }
-
-    // Of which nodes a host may hold any set; it may hold all others, or those that then ask nobody else, or none.
-    std::vector<std::size_t> weighed() const {
-        std::vector<std::size_t> nodes;
-        for (const auto node : costs_.order)
-            if (costs_.order.size() <= all_subsets || costs_.nodes[node].memory > 0) nodes.push_back(node);
-        const auto matters = [&](std::size_t node) { return costs_.nodes[node].memory; };
-        std::stable_sort(nodes.begin(), nodes.end(), [&](auto a, auto b) { return matters(a) > matters(b); });
-        if (costs_.order.size() > all_subsets && nodes.size() > most_heavy) nodes.resize(most_heavy);
-        return nodes;
-    }
-
-    void make_options() {
-        const auto nodes = weighed();
-        options_.assign(hosts_.size(), {});
-        for (std::size_t host = 0; host < hosts_.size(); ++host) {
-            add_option(host, std::vector<bool>(all_.size(), false));
-            for (std::size_t set = 0; set < std::size_t{1} << nodes.size(); ++set) {
-                auto held = all_;
-                for (std::size_t i = 0; i < nodes.size(); ++i) held[nodes[i]] = set >> i & 1;
-                add_option(host, held);
-                add_option(host, closed(held));
-            }
-        }
-    }
-
     // A layout in which each node is somewhere: what is largest first. `fill`: and wherever there is room.
     HeldByHosts covering(bool fill) const {
         HeldByHosts holds(hosts_.size(), std::vector<bool>(all_.size(), false));
@@ -127,7 +72,7 @@ private:
         const auto with = [&](std::size_t host, std::size_t node) {
             auto held = holds[host];
             held[node] = true;
-            return with_taken(held);
+            return options_.with_taken(held);
         };
         for (const auto node : nodes) {
             std::size_t best = hosts_.size();
@@ -145,22 +90,58 @@ private:
         return holds;
     }
 
-    // Host by host takes what is best for all, as long as that helps and nobody has to wait.
+    // Takes what is best for all, host by host, as long as that helps and nobody has to wait; and two hosts at once,
+    // where one has room only for what another gives up.
     void descend(HeldByHosts holds) {
         double seconds = consider(holds);
         const std::size_t end = steps_ + most_steps / 3;
-        for (bool better = true; better && steps_ < end;) {
-            better = false;
-            for (std::size_t host = 0; host < hosts_.size() && steps_ < end; ++host)
-                for (const auto& option : options_[host]) {
-                    if (option == holds[host]) continue;
-                    auto other = holds;
-                    other[host] = option;
-                    const double found = consider(other);
-                    if (found >= seconds * 0.9999 || steps_ > end) continue;
-                    holds = std::move(other), seconds = found, better = true;
-                }
+        do
+            while (step_of_one(holds, seconds, end)) {
+            }
+        while (step_of_two(holds, seconds, end));
+    }
+
+    // With other things on two of the hosts, whichever: where a descent ends that began elsewhere may be better.
+    HeldByHosts kicked(HeldByHosts holds) {
+        for (int i = 0; i < 2; ++i) {
+            const auto host = random_() % hosts_.size();
+            holds[host] = options_.of(host)[random_() % options_.of(host).size()];
         }
+        return holds;
+    }
+
+    bool takes(HeldByHosts& holds, double& seconds, HeldByHosts other) {
+        const double found = consider(other);
+        if (found >= seconds * 0.9999) return false;
+        holds = std::move(other), seconds = found;
+        return true;
+    }
+
+    bool step_of_one(HeldByHosts& holds, double& seconds, std::size_t end) {
+        bool better = false;
+        for (std::size_t host = 0; host < hosts_.size(); ++host)
+            for (const auto& option : options_.of(host)) {
+                if (option == holds[host]) continue;
+                if (steps_ >= end) return false;
+                auto other = holds;
+                other[host] = option;
+                better |= takes(holds, seconds, std::move(other));
+            }
+        return better;
+    }
+
+    bool step_of_two(HeldByHosts& holds, double& seconds, std::size_t end) {
+        for (std::size_t one = 0; one < hosts_.size(); ++one)
+            for (std::size_t two = one + 1; two < hosts_.size(); ++two)
+                for (const auto& of_one : options_.of(one))
+                    for (const auto& of_two : options_.of(two)) {
+                        if (of_one == holds[one] || of_two == holds[two]) continue;
+                        if (steps_ >= end) return false;
+                        auto other = holds;
+                        other[one] = of_one, other[two] = of_two;
+                        if (takes(holds, seconds, std::move(other))) return true;
+                    }
+        return false;
     }
 
     // The same with fewer tiles, where it has very many.
@@ -212,7 +193,7 @@ private:
         for (bool better = true; better && left > 0;) {
             better = false;
             for (std::size_t host = 0; host < hosts_.size(); ++host)
-                for (const auto& option : options_[host]) {
+                for (const auto& option : options_.of(host)) {
                     if (option == best.holds[host] || left == 0) continue;
                     NodeLayout other = best;
                     other.holds[host] = option;
@@ -234,7 +215,7 @@ private:
                 if (holds[host][node]) continue;
                 auto held = holds[host];
                 held[node] = true;
-                const bool fits = has_room(costs_, hosts_[host], with_taken(held));
+                const bool fits = has_room(costs_, hosts_[host], options_.with_taken(held));
                 auto& names = fits ? quicker : room;
                 names += (names.empty() ? "" : ", ") + hosts_[host].name;
             }
@@ -260,17 +241,14 @@ private:
     const std::vector<ForecastHost>& hosts_;
     LineCost launcher_;
     FlowEstimate estimate_;
-    std::vector<bool> all_;                                // nodes that the picture needs
-    std::vector<std::vector<std::vector<bool>>> options_;  // by host: what it may hold
+    std::vector<bool> all_;  // nodes that the picture needs
+    HostOptions options_;
     std::vector<NodeLayout> best_;
     std::size_t steps_ = 0;
+    std::mt19937_64 random_;  // which is the same each time
 };
 
 }  // namespace
-
-bool has_room(const RunCosts& costs, const ForecastHost& host, const std::vector<bool>& held) {
-    return host.memory <= 0 || memory_of(costs, held) <= host.memory;
-}
 
 Plan plan_of(const HeldByHosts& holds, const std::vector<ForecastHost>& hosts) {
     Plan plan;

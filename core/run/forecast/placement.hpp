@@ -7,6 +7,7 @@
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/plan.hpp"
 #include "core/run/forecast/flow_estimate.hpp"
+#include "core/run/forecast/host_options.hpp"
 
 namespace lightnet {
 
@@ -16,9 +17,6 @@ struct NodeLayout {
     double seconds = 0;            // as estimated
     std::vector<std::string> why;  // a sentence for each node that is not everywhere, and for what else was weighed
 };
-
-/// Has a host the memory for these nodes?
-bool has_room(const RunCosts& costs, const ForecastHost& host, const std::vector<bool>& held);
 
 /// Every place of a host holds what that holds.
 Plan plan_of(const HeldByHosts& holds, const std::vector<ForecastHost>& hosts);
