@@ -1,7 +1,8 @@
-// Table 1 of the paper: what bundling is worth. The unchanged scalar classes of nodes/examples/candela:
-// CandelaGathered, which asks its input about one spot after the other, on one host, and CandelaDirect on another, one
-// millisecond away in each direction. Once every question travels alone and is waited for; once as the network does it
-// by itself. One by one, a twentieth of the picture is rendered, and the time of the whole follows from it.
+// Table 1 of the paper: what bundling is worth. graphs/paper/table1.lua on the hosts of graphs/paper/hosts/table1.lua,
+// the unchanged scalar classes of nodes/examples/candela: CandelaGathered, which asks its input about one spot after
+// the other, on one host, and CandelaDirect on another, one millisecond away in each direction. Once every question
+// travels alone and is waited for; once as the network does it by itself. One by one, a twentieth of the picture is
+// rendered, and the time of the whole follows from it.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/figure.hpp"
+#include "tests/bench/paper.hpp"
 #include "tests/support/delaying_proxy.hpp"
 #include "tests/support/host_thread.hpp"
 #include "transport/launcher/cluster.hpp"
@@ -29,26 +31,8 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::uint32_t side = sized(76u, 20u);  // pixels; with 2 samples and 16 rays about 128,000 questions
-constexpr double samples = 2, rays = 16;
+constexpr std::uint32_t samples = 2;
 const int rounds = repeated(3);
-
-// As graphs/traditional.lua, without what would ask CandelaDirect in other ways.
-Graph gathering() {
-    Graph graph;
-    graph.file = LIGHTNET_SOURCE_DIR "/graphs/table1.lua";
-    const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
-    Table film;
-    film.list = {Value{double(side)}, Value{double(side)}};
-    graph.nodes = {{"scene", "Scene", {Value{std::string("cornell_box.pbrt")}}, {}, {}},
-                   {"direct", "CandelaDirect", {}, {}, {}},
-                   {"gathered", "CandelaGathered", {ref("direct")}, {{"rays", Value{rays}}}, {}},
-                   {"image",
-                    "RayTracer",
-                    {ref("gathered")},
-                    {{"scene", ref("scene")}, {"film", Value{film}}, {"samples", Value{samples}}},
-                    {}}};
-    return graph;
-}
 
 /// What one way of working took.
 struct Cost {
@@ -58,7 +42,8 @@ struct Cost {
 class Bench {
 public:
     explicit Bench(const Registry& registry) : registry_(registry) {
-        job_.graph = check(gathering(), registry);
+        const auto size = std::to_string(side);
+        job_.graph = check(paper_graph("table1", {{"width", size}, {"height", size}}), registry);
         job_.scene = scene_file(job_.graph, registry);
         job_.isa = usual_isa();
         job_.width = job_.height = side;
@@ -70,8 +55,7 @@ public:
 
     /// As the launcher does it.
     Cost bundled() {
-        return measure(job_, tiles_of(side, side, job_.tuning.tile, std::uint32_t(samples)),
-                       {2, 2 * MasterRenderer::most_together});
+        return measure(job_, tiles_of(side, side, job_.tuning.tile, samples), {2, 2 * MasterRenderer::most_together});
     }
     /// One question at a time, waited for; a twentieth of the picture's rows, spread over it.
     Cost one_by_one() {
@@ -80,7 +64,7 @@ public:
         job.tuning.credit = job.tuning.credit_questions = 1;
         job.tuning.spare_fibers = job.tuning.side_fibers = 0;
         std::vector<Tile> tiles;
-        for (std::uint32_t y = 10; y < side; y += 20) tiles.push_back({0, y, side, 1, 0, std::uint32_t(samples)});
+        for (std::uint32_t y = 10; y < side; y += 20) tiles.push_back({0, y, side, 1, 0, samples});
         return measure(job, tiles, {1, 1});
     }
 
@@ -88,16 +72,13 @@ private:
     Cost measure(const Job& job, const std::vector<Tile>& tiles, Credit under_way) {
         const test::HostThread near(registry_), far(registry_);
         const test::DelayingProxy line(far.endpoint(), 1ms);
-        Plan plan{{{near.endpoint(), 0}, {line.endpoint(), 0}},
-                  std::vector<std::vector<std::uint32_t>>(job.graph.nodes.size())};
-        plan.places_of[*job.graph.find("image")] = plan.places_of[*job.graph.find("gathered")] = {0};
-        plan.places_of[*job.graph.find("direct")] = {1};
+        const Hosts hosts = paper_hosts("table1", {near.endpoint(), line.endpoint()});
         Cluster::Options options;
         options.run = 1;
         options.job = job;
         options.files = files_;
         options.endpoints = {near.endpoint(), line.endpoint()};
-        options.plan = [&](const std::vector<HostOffer>&) { return plan; };
+        options.plan = [&](const std::vector<HostOffer>& offers) { return plan(job.graph, registry_, hosts, offers); };
         Cluster cluster(std::move(options));
         const std::atomic<bool> never{false};
         cluster.gather(5s, never);

@@ -1,7 +1,8 @@
 // The paper's Table 2: the same renderer on more and more places. Real costs on two places, over inproc and over tcp,
 // are beside two independent serial runs (the figures of `overhead` as well); costs that are emulated by waiting show
 // 8, 32 and 128 places: threads of this process, and daemons that are each a host of their own (namespaces.sh), over
-// tcp. Arguments: emulated, setup, threads, network; without any, all of them.
+// tcp. The paper's own network and hosts are as shipped. Arguments: paper, emulated, setup, threads, network; without
+// any, all of them.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include "tests/bench/emulated.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/bench/overhead.hpp"
+#include "tests/bench/paper.hpp"
 #include "transport/launcher/cluster.hpp"
 #include "transport/start/child.hpp"
 #include "transport/start/local_workers.hpp"
@@ -35,6 +37,13 @@ void measure_emulated(std::uint32_t places) {
     for (int round = 0; round < rounds; ++round)
         efficiency.push_back(ideal / seconds_of_places(places, milliseconds, tiles));
     figure("table2.emulated" + std::to_string(places), efficiency, 0.95, true);
+}
+
+// The paper's hosts and network, eight renderers and six times the lighting: costs emulated by waiting.
+void measure_paper() {
+    const EmulatedCosts costs{{{"image", 30}, {"soft", 30}, {"direct", 10}}, 256};
+    figure("table2.paper", emulated_efficiency("figure3", "table2", {4, 2, 1, 1}, costs, sized<std::size_t>(600, 20)),
+           0.95, true);
 }
 
 // What this program does in a host of its own: `words` are the number of places and the endpoints of the others.
@@ -104,6 +113,7 @@ int main(int argc, char** argv) {
     };
     return lightnet::bench::run("table2", [&] {
         if (!words.empty() && words[0] == "ask") return bench::ask_hosts({words.begin() + 1, words.end()});
+        if (wanted("paper")) bench::measure_paper();
         if (wanted("emulated")) {
             for (const std::uint32_t places : {8, 32, 128}) bench::measure_emulated(places);
             bench::measure_emulated_hosts(argv[0], 8, 1);

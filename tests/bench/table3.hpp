@@ -3,18 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <vector>
-
-#include "core/network/graph/hosts.hpp"
 
 namespace lightnet::bench {
 
 /// Processors of the paper's three hosts.
 inline constexpr std::array<std::uint32_t, 3> table3_places{4, 2, 1};
-
-/// graphs/paper/hosts/table3.lua, with these for its endpoints.
-Hosts table3_hosts(const std::vector<std::string>& endpoints);
 
 /// Costs that are emulated by waiting: seven places, each as quick as the others.
 void measure_emulated_hosts();

@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "core/base/allowance.hpp"
-#include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/bench/daemon.hpp"
 #include "tests/bench/figure.hpp"
+#include "tests/bench/paper.hpp"
 #include "tests/bench/processor_group.hpp"
 #include "tests/bench/stage.hpp"
 #include "tests/bench/table3.hpp"
@@ -107,9 +107,9 @@ void measure_real_hosts() {
     const SlowDaemons daemons{&one, &two, &three};
     const Registry registry{standard_nodes()};
     const char* samples = std::getenv("LIGHTNET_BENCH_SAMPLES");
-    const Graph graph = load_graph(LIGHTNET_SOURCE_DIR "/graphs/paper/figure5.lua",
-                                   LuaOptions{{{"samples", samples ? samples : sized("64", "1")}}});
-    const Hosts hosts = table3_hosts({one.daemon->endpoint(), two.daemon->endpoint(), three.daemon->endpoint()});
+    const Graph graph = paper_graph("figure5", {{"samples", samples ? samples : sized("64", "1")}});
+    const Hosts hosts =
+        paper_hosts("table3", {one.daemon->endpoint(), two.daemon->endpoint(), three.daemon->endpoint()});
     Stage stage(registry, graph);
     std::vector<double> efficiency;
     for (std::uint64_t round = 1; round <= std::uint64_t(rounds); ++round) {

@@ -1,4 +1,4 @@
-// The layouts of the paper's figures and tables, in small: the same bytes as one thread gives.
+// The layouts of the paper's figures and tables, and one of three levels, in small: the same bytes as one thread gives.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -30,20 +30,22 @@ protected:
         return folder.write("hosts.lua", made);
     }
     Launch run(const std::string& graph, const Words& more) {
-        Words words{"--size", "32x32", "--samples", "4", "-D", "rays=16", "--progress", "none", "--cache", "none"};
-        if (graph == "figure5.lua") words.insert(words.end(), {"-D", "photons=5000"});
+        Words words{"--size", "32x32", "--samples", "4", "--progress", "none", "--cache", "none"};
+        if (graph.starts_with("paper/")) words.insert(words.end(), {"-D", "rays=16"});
+        if (graph == "paper/figure5.lua") words.insert(words.end(), {"-D", "photons=5000"});
         words.insert(words.end(), more.begin(), more.end());
-        return launch(graph_file("paper/" + graph), folder, words);
+        return launch(graph_file(graph), folder, words);
     }
     Folder folder;
     std::vector<std::unique_ptr<Daemon>> daemons;
 };
 
 TEST_P(Paper, GivesTheBytesOfOneThread) {
-    const std::string text = bytes_of(graph_file("paper/hosts/" + GetParam() + ".lua"));
+    const std::string text = bytes_of(graph_file(GetParam() + ".lua"));
     const std::string before = "-- For ";
     ASSERT_TRUE(text.starts_with(before));
-    const std::string graph = text.substr(before.size(), text.find(':') - before.size());
+    const std::string folder_of_graph = GetParam().starts_with("paper/") ? "paper/" : "";
+    const std::string graph = folder_of_graph + text.substr(before.size(), text.find(':') - before.size());
     const auto serial = run(graph, {"--threads", "1"});
     ASSERT_EQ(serial.code, 0) << serial.said;
     const auto spread = run(graph, {"--hosts", with_daemons(text), "--tile", "16"});
@@ -53,8 +55,10 @@ TEST_P(Paper, GivesTheBytesOfOneThread) {
 }
 
 INSTANTIATE_TEST_SUITE_P(FiguresAndTables, Paper,
-                         testing::Values("figure3", "figure5", "figure7", "table1", "table2", "table3"),
-                         [](const auto& name) { return name.param; });
+                         testing::Values("paper/hosts/figure3", "paper/hosts/figure5", "paper/hosts/figure7",
+                                         "paper/hosts/table1", "paper/hosts/table2", "paper/hosts/table3",
+                                         "hosts/chain"),
+                         [](const auto& name) { return name.param.substr(name.param.rfind('/') + 1); });
 
 }  // namespace
 }  // namespace lightnet::paper_test

@@ -55,7 +55,8 @@ TEST(Graphs, LeaveOutOnlyTheLightThatTheyMeanTo) {
 
 TEST(Graphs, RunOnTheHostsThatComeWithThem) {
     const Registry registry(standard_nodes());
-    for (const char* hosts : {"hosts/two.lua", "hosts/spread.lua", "hosts/affinity.lua", "hosts/threads.lua"})
+    for (const char* hosts :
+         {"hosts/two.lua", "hosts/spread.lua", "hosts/affinity.lua", "hosts/threads.lua", "hosts/chain.lua"})
         EXPECT_THAT(examine(graph_called("cornell.lua"), registry, load_hosts((graphs / hosts).string())).problems,
                     IsEmpty());
     const Hosts sharded = load_hosts((graphs / "hosts/sharded.lua").string());
@@ -74,7 +75,8 @@ std::string graph_for(const std::filesystem::path& hosts) {
 }
 
 TEST(Graphs, OfThePaperRunOnTheHostsOfItsFiguresAndTables) {
-    const Registry registry(standard_nodes());
+    Registry registry(standard_nodes());
+    registry.add(candela_kinds());
     std::map<std::string, std::map<std::string, int>> replicas;
     for (const auto& entry : std::filesystem::directory_iterator(graphs / "paper/hosts")) {
         const Hosts hosts = load_hosts(entry.path().string());
