@@ -21,7 +21,7 @@ namespace {
 
 using Pixels = std::vector<std::vector<Rgb>>;
 
-/// Writes graphs. Those that learn before they answer have tests of their own, as that takes long.
+/// Writes graphs. Those that learn before they answer are in random_preparing_test.
 class Author {
 public:
     Author(const Registry& registry, unsigned seed) : registry_(registry), random_(seed) {}

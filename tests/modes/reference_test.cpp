@@ -47,13 +47,13 @@ protected:
         if (!GetParam().scene.empty()) put_all_of(shared_file("scenes/" + GetParam().scene).value());
     }
 
-    Picture render(int seed) {
+    Picture render(int seed, const std::vector<std::string>& mode) {
         const auto& r = GetParam();
         const auto scene = folder / fs::path(r.main_file).filename().string();
         const auto run =
             launch(graph_file("path.lua"), folder,
                    {"-D", "file=" + scene.string(), "--size", std::to_string(r.width) + "x" + std::to_string(r.height),
-                    "--samples", std::to_string(r.samples / 2), "--seed", std::to_string(seed), "--threads", "2",
+                    "--samples", std::to_string(r.samples / 2), "--seed", std::to_string(seed), mode[0], mode[1],
                     "--progress", "none"},
                    slowdown * std::chrono::minutes(10));
         EXPECT_EQ(run.code, 0) << run.said;
@@ -73,8 +73,8 @@ double noise_of_mean(const Picture& a, const Picture& b) {
 
 TEST_P(References, AgreeWithinTheirTolerances) {
     const auto& r = GetParam();
-    Picture a = render(1);
-    const Picture b = render(2);
+    Picture a = render(1, {"--threads", "2"});
+    const Picture b = render(2, {"--local-workers", "2"});
     const double noise = compare(a, b).block_difference / 2;  // of the mean of both
     const double mean_noise = noise_of_mean(a, b);
     for (std::size_t i = 0; i < a.beauty.size(); ++i) a.beauty[i] = (a.beauty[i] + b.beauty[i]) * 0.5f;
