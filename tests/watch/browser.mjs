@@ -158,6 +158,7 @@ try {
     await report.waitForSelector("text=Nodes and edges");
     assert.match(await report.getByTestId("edges").textContent(), /lighting → bounce/);
     assert(sum(await pixels(report)) > 128 * 128 * 255, "the report has a picture");
+    await report.getByTestId("forecast").waitFor();
     await shot(report, "report-light-1400");
     const report_dark = await open(`file://${join(folder, "run.html")}`, { colorScheme: "dark", viewport: { width: 600, height: 900 } });
     await report_dark.waitForSelector("text=/is lost/");

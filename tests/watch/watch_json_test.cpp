@@ -57,6 +57,19 @@ TEST(WatchedStateJson, HasARowForEachHostWhereThereAreManyPlaces) {
     EXPECT_THAT(nlohmann::json::parse(text)["hosts"][99]["looks"], ElementsAre(ElementsAre(16, 16, 16, 16)));
 }
 
+TEST(WatchedStateJson, HasTheForecastOfARunThatIsOver) {
+    WatchedState state;
+    EXPECT_FALSE(nlohmann::json::parse(state_json(state, small_graph())).contains("forecast"));
+    Forecast two;
+    two.seconds = 5, two.least = 4, two.most = 6, two.efficiency = 0.9;
+    two.parts = {{BusyPart::What::node, "lighting", 0.8}};
+    state.forecast = {.per_host = 8, .rows = {{1, 2, two}}, .places = 2, .seconds = 5.5, .doubt = 0.5};
+    const auto forecast = nlohmann::json::parse(state_json(state, small_graph()))["forecast"];
+    EXPECT_EQ(forecast["per_host"], 8);
+    EXPECT_EQ(forecast["seconds"], 5.5);
+    EXPECT_THAT(forecast["rows"], ElementsAre(ElementsAre(2, 5, 2, 9, 0.9, "node 'lighting'")));
+}
+
 TEST(WatchedStateJson, StaysSmallWithAThousandHosts) {
     WatchedState state;
     for (int i = 0; i < 1000; ++i) {

@@ -251,7 +251,8 @@ int Run::perform() {
 // A report that can't be written takes nothing from the picture, but whoever asked for it has to know: false.
 bool Run::show_outcome(const std::string& outcome) {
     if (!watcher_) return true;
-    book_.show_outcome(outcome);
+    const bool foreseen = outcome == "done" && !handover_ && watcher_->wanted();
+    book_.show_outcome(outcome, foreseen ? curve_of_run(report_beside(request_.output), registry_) : ForecastCurve{});
     if (request_.report.empty()) return true;
     const auto complain = [&](const std::string& why) {
         std::cerr << "lightnet: there is no report: " << why << '\n';

@@ -91,10 +91,10 @@ void RunRecorder::say(const LogEntry& entry) {
 
 void RunRecorder::name_run(std::uint64_t number) { set("run", public_name_of_run(number)); }
 
-void RunRecorder::show_outcome(const std::string& outcome) {
+void RunRecorder::show_outcome(const std::string& outcome, ForecastCurve forecast) {
     if (!watcher_) return;
     watcher_->progress(steps_.done(), {});
-    watcher_->finish(steps_.picture(), outcome);
+    watcher_->finish(steps_.picture(), outcome, std::move(forecast));
 }
 
 void RunRecorder::warn(const std::string& text) {

@@ -60,7 +60,7 @@ public:
     }
     void show_handed_out(const std::vector<Tile>& tiles) { watcher_->handed_out(tiles); }
     /// The last thing that those who watch are shown.
-    void show_outcome(const std::string& outcome);
+    void show_outcome(const std::string& outcome, ForecastCurve forecast);
     /// Writes a page that shows what the run did. Throws Error.
     void write_report_page(const std::string& html);
     /// What they want.

@@ -12,6 +12,7 @@
 #include "core/network/graph/check_hosts.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
+#include "tools/forecast/forecast_curve.hpp"
 #include "tools/forecast/forecast_hosts.hpp"
 #include "tools/forecast/forecast_text.hpp"
 #include "tools/forecast/recorded_run.hpp"
@@ -82,37 +83,6 @@ void sort_links(const PredictOptions& options, ForecastHostsOptions& hosts) {
             hosts.lines.push_back(link);
 }
 
-void check_memory(const RunCosts& costs, const Plan& plan, const std::vector<ForecastHost>& hosts) {
-    for (const auto& host : hosts) {
-        if (host.memory <= 0) continue;
-        double needed = 0;
-        for (std::size_t node = 0; node < plan.places_of.size(); ++node) {
-            const auto& places = plan.places_of[node];
-            if (std::any_of(places.begin(), places.end(),
-                            [&](auto place) { return plan.places[place].host == host.name; }))
-                needed += costs.nodes[node].memory;
-        }
-        if (needed > host.memory)
-            throw UserError({"", 0}, "host " + in_quotes(host.name) +
-                                         " has not enough memory: what its nodes prepare "
-                                         "takes about " +
-                                         std::to_string(std::uint64_t(needed) >> 20) + " MiB, see --layout");
-    }
-}
-
-// Many places even out what pieces of the picture cost, and take longer to foresee.
-std::uint32_t rounds_for(std::size_t places) { return places <= 256 ? 5 : places <= 2048 ? 3 : 1; }
-
-ForecastRow row_for(const ForecastCrew& crew, const RecordedRun& run, const RunCosts& costs, const LineCost& launcher,
-                    const Registry& registry) {
-    std::vector<HostOffer> offers;
-    for (const auto& host : crew.hosts) offers.push_back({host.name, host.places});
-    const Plan where = plan(run.graph, registry, crew.entries, offers);
-    check_memory(costs, where, crew.hosts);
-    return {crew.hosts.size(), where.places.size(),
-            forecast(costs, where, crew.hosts, launcher, rounds_for(where.places.size()))};
-}
-
 int predict(const PredictOptions& options, const Launcher& launcher) {
     OtherPicture picture = options.picture;
     if (!options.size.empty() && !read_size(options.size, picture))
@@ -141,7 +111,7 @@ int predict(const PredictOptions& options, const Launcher& launcher) {
     table.width = costs.picture.width, table.height = costs.picture.height;
     table.samples = costs.picture.samples, table.frames = costs.picture.frames;
     for (const auto& crew : crews)
-        table.rows.push_back(row_for(crew, run, costs, line.value_or(LineCost{}), launcher.registry));
+        table.rows.push_back(foreseen_on(crew, run, costs, line.value_or(LineCost{}), launcher.registry));
     launcher.out << (options.json ? to_json(table) : to_text(table));
     return exit_code::done;
 }

@@ -153,6 +153,14 @@ void add_figures(JsonTree& json, const WatchedState& state, const Graph& graph) 
     for (const auto& edge : edges) lines.push_back({edge.questions, edge.bundles, edge.sent, edge.bytes});
 }
 
+JsonTree forecast_json(const ForecastCurve& curve) {
+    auto rows = JsonTree::list();
+    for (const auto& [hosts, places, what] : curve.rows)
+        rows.push_back({places, what.seconds, what.least * (1 - curve.doubt), what.most * (1 + curve.doubt),
+                        what.efficiency, words_for(what.parts.front())});
+    return {{"per_host", curve.per_host}, {"places", curve.places}, {"seconds", curve.seconds}, {"rows", rows}};
+}
+
 }  // namespace
 
 std::string hello_json(const WatchedRun& run) {
@@ -189,6 +197,7 @@ std::string state_json(const WatchedState& state, const Graph& graph) {
                           {"to", {seen->to.x, seen->to.y, seen->to.z}},
                           {"up", {seen->up.x, seen->up.y, seen->up.z}},
                           {"fov", seen->fov}};
+    if (!state.forecast.rows.empty()) json["forecast"] = forecast_json(state.forecast);
     if (state.left) json["left"] = std::round(*state.left * 10) / 10;
     json["hosts"] = hosts_json(state.hosts);
     add_figures(json, state, graph);

@@ -9,6 +9,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/run/assembly/activity.hpp"
+#include "tools/forecast/forecast_curve.hpp"
 #include "tools/watch/viewpoint.hpp"
 #include "transport/launcher/cluster.hpp"
 
@@ -34,6 +35,7 @@ struct WatchedState {
     std::vector<Tile> in_flight;
     std::optional<Viewpoint> viewpoint{};  // none: not known yet
     std::string outcome;                   // "": it goes on
+    ForecastCurve forecast{};              // of a run that is over
 };
 
 /// {"hello": {…}}

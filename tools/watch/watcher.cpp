@@ -164,10 +164,11 @@ std::vector<WatchCommand> Watcher::commands() {
     return std::exchange(commands_, {});
 }
 
-void Watcher::finish(const Film& film, const std::string& outcome) {
+void Watcher::finish(const Film& film, const std::string& outcome, ForecastCurve forecast) {
     if (!wanted() && !picture_wanted()) return;
     for (const auto& command : commands()) command.answer("the run is over");
     state_.outcome = outcome;
+    state_.forecast = std::move(forecast);
     state_.in_flight.clear();
     state_.doing.clear();
     bool told = false;

@@ -76,7 +76,7 @@ public:
     /// What there is to say of the viewer.
     std::vector<std::string> news() { return viewer_ ? viewer_->news() : std::vector<std::string>{}; }
     /// Shows all that is there, as the last thing.
-    void finish(const Film& film, const std::string& outcome);
+    void finish(const Film& film, const std::string& outcome, ForecastCurve forecast = {});
 
     /// How many places were at work, on average over the time that they were looked at.
     double at_work() const { return work_.average(); }

@@ -1,4 +1,4 @@
-// What each host may hold: sets of nodes that it has the memory for.
+// The sets of nodes that each host may hold: those that it has the memory for.
 #pragma once
 
 #include <cstddef>

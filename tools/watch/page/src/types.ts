@@ -44,6 +44,14 @@ export interface Host {
     cpu?: string;
 }
 
+/// What the run takes on other numbers of places.
+export interface Forecast {
+    per_host: number;
+    places: number; // of the run itself, and what it took
+    seconds: number;
+    rows: [number, number, number, number, number, string][]; // places, seconds, from, to, efficiency, what is busiest
+}
+
 export interface State {
     t: number; // seconds
     phase: string;
@@ -56,6 +64,7 @@ export interface State {
     tiles: [number, number, number, number][];
     doing: Record<string, [string, number, number]>;
     camera?: Camera;
+    forecast?: Forecast; // of a run that is done
 }
 
 /// What a session tells of an edit.
