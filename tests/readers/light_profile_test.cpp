@@ -100,7 +100,11 @@ TEST(LightProfiles, OfTypeATurnAroundTheVertical) {
 }
 
 TEST(LightProfiles, AreMultipliedByTheirFactors) {
-    EXPECT_NEAR(candela(light_profile("2 1", "0 90 0 10 10", 1, "0.5 0.8 60"), 45, 0), 4, 1e-3f);
+    const std::string rest = "TILT=NONE\n1 100 1 2 1 1 2 0 0 0 0.5 0.8 60 0 90 0 10 10";
+    EXPECT_NEAR(candela(rest, 45, 0), 4, 1e-3f) << "of 1986: of the ballast, and of ballast and lamp";
+    EXPECT_NEAR(candela("IESNA91\n" + rest, 45, 0), 4, 1e-3f);
+    for (const std::string edition : {"IESNA:LM-63-1995", "IESNA:LM-63-2002", "IES:LM-63-2019"})
+        EXPECT_NEAR(candela(edition + "\r\n" + rest, 45, 0), 5, 1e-3f) << edition << ": of the ballast alone";
     EXPECT_NEAR(candela("TILT=NONE\n1 -1 2.5 2 1 1 1 0 0 0 1 1 0 0 90 0 10 10", 45, 0), 25, 1e-3f);
 }
 
@@ -111,6 +115,7 @@ TEST(LightProfiles, MayHaveFactorsOfTilt) {
     EXPECT_TRUE(profile.tilted);
     EXPECT_NEAR(profile.towards({0, 0, -1}), 7, 1e-4f);
     EXPECT_FALSE(read_light_profile(light_profile("2 1", "0 90 0 1 1")).tilted);
+    EXPECT_FALSE(read_light_profile(" TILT = NONE \n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n7 7\n").tilted);
 }
 
 TEST(LightProfiles, SayWhatIsWrong) {

@@ -80,7 +80,9 @@ TEST(PlyLeftOut, IsNamedByElementAndProperty) {
     };
     EXPECT_THAT(said("", "", ""), Not(HasSubstr("left out")));
     EXPECT_THAT(said("property uchar alpha\n", "", ""), HasSubstr("property 'alpha' of 'vertex' is left out"));
-    EXPECT_THAT(said("", "property uchar red\n", ""), HasSubstr("property 'red' of 'face' is left out"));
+    EXPECT_THAT(said("", "property uchar flags\n", ""), HasSubstr("property 'flags' of 'face' is left out"));
+    EXPECT_THAT(said("property uchar red\n", "property uchar red\n", ""),
+                HasSubstr("property 'red' of 'face' is left out"));
     EXPECT_THAT(said("", "", "element edge 1\nproperty int vertex1\n"), HasSubstr("element 'edge' is left out"));
 }
 

@@ -42,6 +42,18 @@ TEST(Obj, JoinsLinesAndSkipsRemarks) {
     EXPECT_EQ(mesh_of(scene).positions[2], (Vec3{1, 1, 0}));
 }
 
+TEST(Obj, MayHaveLinesThatEndAsOfOldMacs) {
+    const auto scene = read_as("a.obj", "v 0 0 0\rv 1 0 0\r\nv 1 1 0\nv 0 1 0\rf 1 2 \\\r3 4\rf 1 2 3\r");
+    EXPECT_THAT(mesh_of(scene).triangles, SizeIs(3));
+}
+
+TEST(Obj, MayHaveRemarksBehindNamesOfMaterials) {
+    const auto scene = read_as("a.obj", "mtllib m.mtl # here\nusemtl a # and # b\n" + corners + "f 1 2 3 # there\n",
+                               {{"m.mtl", "newmtl a\nKd 1 0 0\n"}});
+    EXPECT_EQ(material_of(scene).name, "a");
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("grey is taken")));
+}
+
 TEST(Obj, CutsConcavePolygonsInside) {
     // an L: its area is 3, a fan's would be larger
     const auto scene = read_as("l.obj", "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 4 5 6 1 2 3\n");
@@ -264,6 +276,21 @@ TEST(PlyScene, HasTheColoursOfItsVertices) {
     EXPECT_THAT(mesh_of(grey).triangles, SizeIs(2));
     EXPECT_EQ(colour_of(grey, model_of<DiffuseMaterial>(grey).reflectance), (Rgb{0.5f, 0.5f, 0.5f}));
     EXPECT_THAT(errors_as("a.ply", "ply\n"), HasSubstr("a.ply: PLY: the header ends early"));
+}
+
+TEST(PlyScene, HasTheColoursOfItsFacesWhereItsVerticesHaveNone) {
+    const std::string header =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 2\nproperty list uchar int vertex_indices\n";
+    const auto scene =
+        read_as("a.ply", header +
+                             "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+                             "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 2 3 0 255 0\n");
+    const auto& mesh = mesh_of(scene);
+    ASSERT_THAT(mesh.colours, SizeIs(6));
+    EXPECT_EQ(mesh.colours[mesh.triangles[0][2]], (Rgb{1, 0, 0}));
+    EXPECT_EQ(mesh.colours[mesh.triangles[1][0]], (Rgb{0, 1, 0}));
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("left out")));
 }
 
 TEST(SmoothNormals, AreMeansOverTheAnglesOfFaces) {

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/base/error.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/sky_layout.hpp"
+#include "core/readers/files/trimmed.hpp"
 
 namespace lightnet {
 namespace {
@@ -61,14 +63,23 @@ private:
     std::string_view rest_;
 };
 
+/// What stands behind "TILT=" of a line; none: it is another one.
+std::optional<std::string_view> tilt_in(std::string_view line) {
+    constexpr std::string_view blanks = " \t", word = "TILT";
+    line = trimmed(line, blanks);
+    if (!line.starts_with(word)) return std::nullopt;
+    line = trimmed(line.substr(word.size()), blanks);
+    if (!line.starts_with('=')) return std::nullopt;
+    return trimmed(line.substr(1), blanks);
+}
+
 /// Behind the labels, to the numbers. True: there are factors of tilt.
 bool skip_to_numbers(ProfileText& text) {
     while (true) {
         if (text.at_end()) not_a_profile("there is no line that begins with 'TILT='");
-        std::string_view line = text.line();
-        if (!line.starts_with("TILT=")) continue;
-        line.remove_prefix(5);
-        while (!line.empty() && line.back() == ' ') line.remove_suffix(1);
+        const auto tilt = tilt_in(text.line());
+        if (!tilt) continue;
+        const std::string_view line = *tilt;
         if (line == "INCLUDE") {
             text.number("how the lamp lies");
             for (std::size_t left = 2 * text.count("the number of angles of tilt"); left > 0; --left)
@@ -156,6 +167,8 @@ float LightProfile::towards(Vec3 d) const {
 
 LightProfile read_light_profile(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    // since 1995 the first line names the edition, and one factor is something else: of 2019, how the file was made
+    const bool newer = text.starts_with("IESNA:LM-63-") || text.starts_with("IES:LM-63-");
     ProfileText input(text);
     LightProfile profile;
     profile.tilted = skip_to_numbers(input);
@@ -168,8 +181,8 @@ LightProfile read_light_profile(std::string_view text) {
     profile.photometry = static_cast<LightProfile::Photometry>(int(type));
     for (const char* what : {"its units", "its width", "its length", "its height"}) input.number(what);
     factor *= input.number("the factor of the ballast");
-    const double of_lamp = input.number("the factor of ballast and lamp");  // 1 since 1995, where it says nothing
-    if (of_lamp > 0) factor *= of_lamp;
+    const double of_lamp = input.number("the factor of ballast and lamp");
+    if (!newer && of_lamp > 0) factor *= of_lamp;
     input.number("its watts");
     profile.vertical = ascending_angles(input, verticals, "a vertical angle");
     profile.horizontal = ascending_angles(input, horizontals, "a horizontal angle");

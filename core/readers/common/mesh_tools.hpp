@@ -27,4 +27,7 @@ void flip(Mesh& mesh);
 void triangulate(std::span<const Vec3> positions, std::span<const std::uint32_t> corners,
                  const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& triangle);
 
+/// Gives each triangle vertices of its own, in its colour.
+void paint(Mesh& mesh, const std::vector<Rgb>& of_triangles);
+
 }  // namespace lightnet

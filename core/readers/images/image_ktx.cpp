@@ -81,7 +81,9 @@ KtxHeader ktx_header(const LowFirst& file) {
     KtxHeader header;
     const std::uint32_t number = file.four(12);
     header.packing = file.four(44);
-    if (header.packing == ktx_basis || number == 0) file.refuse("pixels packed by Basis Universal are not supported");
+    if (header.packing == ktx_basis || number == 0)
+        file.refuse(
+            "pixels packed by Basis Universal are not read, as no library for them is packaged; plain pixels are");
     const auto* format = std::ranges::find(ktx_formats, number, &KtxFormat::number);
     if (format == ktx_formats.end())
         file.refuse("pixels of Vulkan's format " + std::to_string(number) +

@@ -27,20 +27,4 @@ std::vector<std::string> attributes_in(const Node& node, const Context& context)
     return names;
 }
 
-void paint(Mesh& mesh, const std::vector<Rgb>& of_triangles) {
-    Mesh painted;
-    painted.flip_normals = mesh.flip_normals;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const auto first = static_cast<std::uint32_t>(painted.positions.size());
-        for (const auto corner : mesh.triangles[i]) {
-            painted.positions.push_back(mesh.positions[corner]);
-            if (!mesh.normals.empty()) painted.normals.push_back(mesh.normals[corner]);
-            if (!mesh.uvs.empty()) painted.uvs.push_back(mesh.uvs[corner]);
-            painted.colours.push_back(of_triangles[i]);
-        }
-        painted.triangles.push_back({first, first + 1, first + 2});
-    }
-    mesh = std::move(painted);
-}
-
 }  // namespace lightnet::mitsuba

@@ -12,7 +12,4 @@ namespace lightnet::mitsuba {
 /// each once, in the order in which they stand.
 std::vector<std::string> attributes_in(const Node& node, const Context& context);
 
-/// Gives each triangle vertices of its own, in its colour.
-void paint(Mesh& mesh, const std::vector<Rgb>& of_triangles);
-
 }  // namespace lightnet::mitsuba

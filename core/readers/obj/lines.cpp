@@ -17,9 +17,9 @@ constexpr std::string_view spaces = " \t\r\v\f";
 }  // namespace
 
 std::string_view Lines::cut() {
-    const auto end = std::min(text_.find('\n', at_), text_.size());
+    const auto end = std::min(text_.find_first_of("\r\n", at_), text_.size());
     const auto line = trimmed(text_.substr(at_, end - at_), spaces);
-    at_ = end + 1;
+    at_ = end + (text_.substr(end).starts_with("\r\n") ? 2 : 1);
     ++ended_;
     return line;
 }

@@ -105,7 +105,9 @@ private:
         auto ahead = lines_;
         const auto first = ahead.word();
         if (first == "spectral" || first == "xyz") {
-            report_.warn(lines_.where(), fmt::format("colours by '{}' are left out", first));
+            report_.warn(
+                lines_.where(),
+                fmt::format("colours by '{}' are left out: what has one looks as if the line were not there", first));
             return std::nullopt;
         }
         const auto r = lines_.number(report_), g = r ? lines_.number(report_) : r, b = g ? lines_.number(report_) : g;

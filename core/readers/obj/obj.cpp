@@ -10,6 +10,7 @@
 #include "core/base/suggestion.hpp"
 #include "core/readers/common/assets.hpp"
 #include "core/readers/common/mesh_tools.hpp"
+#include "core/readers/files/trimmed.hpp"
 #include "core/readers/obj/elsewhere.hpp"
 #include "core/readers/obj/materials.hpp"
 #include "core/readers/obj/model.hpp"
@@ -25,7 +26,7 @@ public:
     std::map<std::string, Surface>& all() { return materials_; }
 
     const Surface& of(const Part& part) {
-        if (const auto known = materials_.find(part.material); known != materials_.end()) return known->second;
+        if (const auto known = find(part.material); known != materials_.end()) return known->second;
         if (!part.material.empty()) {
             std::vector<std::string> names;
             for (const auto& [name, surface] : materials_) names.push_back(name);
@@ -41,6 +42,14 @@ public:
     }
 
 private:
+    /// By the whole of its line, or by what stands there before a remark.
+    std::map<std::string, Surface>::iterator find(const std::string& name) {
+        const auto known = materials_.find(name);
+        const auto remark = std::min(name.find(" #"), name.find("\t#"));
+        if (known != materials_.end() || remark == name.npos) return known;
+        return materials_.find(std::string(trimmed(name.substr(0, remark), " \t")));
+    }
+
     Assets& assets_;
     std::map<std::string, Surface> materials_;
     Surface painted_;

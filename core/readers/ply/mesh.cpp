@@ -221,7 +221,10 @@ void read_lists(Input& input, Format format, const Element& element, const Names
         fail(fmt::format("'{}' has no list 'vertex_indices'", element.name.substr(0, 32)));
     mesh.triangles.reserve(mesh.triangles.size() + element.count);
     const bool alone = element.properties.size() == 1;
-    const auto number_of = [&](const Property& p) { return p.list ? -1 : names.number_of(p.name); };
+    const auto number_of = [&](const Property& p) {
+        if (p.list) return -1;
+        return names.attribute == "color" && slot_of(p.name) >= red ? slot_of(p.name) - red : names.number_of(p.name);
+    };
     const auto numbers = std::count_if(element.properties.begin(), element.properties.end(),
                                        [&](const Property& p) { return number_of(p) >= 0; });
     for (std::uint64_t i = 0; i < element.count;) {
@@ -280,12 +283,16 @@ Mesh read_ply(std::span<const std::byte> bytes) { return read_all(bytes, {}, {})
 std::vector<std::string> skipped_in_ply(std::span<const std::byte> bytes) {
     Input input({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     std::vector<std::string> skipped;
+    bool coloured = false;  // its vertices are, whose colours count more than those of faces
     for (const auto& element : ply::read_header(input).elements) {
         const bool vertices = element.name == "vertex", faces = element.name == "face" || element.name == "tristrips";
         if (!vertices && !faces) skipped.push_back(fmt::format("element '{}'", element.name.substr(0, 32)));
         if (!vertices && !faces) continue;
+        const auto is_colour = [](const Property& property) { return slot_of(property.name) >= red; };
+        coloured |= vertices && std::ranges::any_of(element.properties, is_colour);
         for (const auto& property : element.properties)
-            if (vertices ? slot_of(property.name) < 0 : !is_list_of_corners(property))
+            if (vertices ? slot_of(property.name) < 0
+                         : !is_list_of_corners(property) && (coloured || !is_colour(property)))
                 skipped.push_back(fmt::format("property '{}' of '{}'", property.name.substr(0, 32), element.name));
     }
     return skipped;

@@ -17,8 +17,8 @@ namespace lightnet {
 /// allocates no more than a small multiple of them.
 Mesh read_ply(std::span<const std::byte> bytes);
 
-/// What read_ply() skips: "property 'alpha' of 'vertex'", "element 'edge'", in the order of the file. Throws Error as
-/// it does.
+/// What such a file holds that no picture of it alone shows: "property 'alpha' of 'vertex'", "element 'edge'", in the
+/// order of the file. Throws Error as read_ply() does.
 std::vector<std::string> skipped_in_ply(std::span<const std::byte> bytes);
 
 /// A mesh with numbers of a name of their own, in the place of its colours.
@@ -28,8 +28,8 @@ struct AttributedMesh {
     bool found = false;             // there is something of that name
 };
 /// A mesh with the numbers that Mitsuba calls "vertex_NAME" or "face_NAME": those of the properties NAME_0, NAME_1 and
-/// NAME_2, or NAME_r, NAME_g and NAME_b, or NAME_x …; one alone is a grey. "vertex_color" may also be red, green and
-/// blue.
+/// NAME_2, or NAME_r, NAME_g and NAME_b, or NAME_x …; one alone is a grey. "vertex_color" and "face_color" may also be
+/// red, green and blue.
 AttributedMesh read_ply(std::span<const std::byte> bytes, std::string_view attribute);
 
 }  // namespace lightnet

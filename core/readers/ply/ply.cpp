@@ -12,6 +12,8 @@ Mesh mesh_of(Assets& assets, const std::string& path) {
     assets.report().check();
     try {
         Mesh mesh = read_ply(**bytes);
+        if (mesh.colours.empty())
+            if (const auto faces = read_ply(**bytes, "face_color"); faces.found) paint(mesh, faces.of_triangles);
         for (const auto& what : skipped_in_ply(**bytes))
             assets.report().warn({path, 0}, what + " is left out: the picture shows nothing of it");
         return mesh;
