@@ -56,6 +56,8 @@ std::vector<std::string> seeds_of_rarer_kinds() {
         all.push_back(test::ktx({.packing = packing, .keys = std::string("\x12\0\0\0KTXorientation\0ru\0\0\0", 24)},
                                 std::string(18, 'x')));
     all.push_back(test::ktx({.format = 97, .width = 1, .height = 1}, std::string(8, 'x')));
+    for (const std::uint32_t blocks : {131u, 133u, 135u, 137u, 139u, 141u})
+        all.push_back(test::ktx({.format = blocks, .width = 5, .height = 3}, std::string(32, 'x')));
     return all;
 }
 

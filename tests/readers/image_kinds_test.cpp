@@ -149,6 +149,44 @@ TEST(Ktx, IsReadPlainAndPacked) {
     EXPECT_EQ(read(floats).colour(0, 0), (Rgb{10, 10, 10}));
 }
 
+// 5 x 1 pixels, of which the second block holds the last: red, blue, and what lies between
+TEST(Ktx, MayBeOfBlocks) {
+    const std::string red("\x00\xf8", 2), blue("\x1f\x00", 2), steps("\xe4\0\0\0", 4), none(8, '\0');
+    const auto of = [](std::uint32_t format, const std::string& blocks, std::uint32_t packing = 0) {
+        return read(test::ktx({.format = format, .width = 5, .height = 1, .packing = packing}, blocks));
+    };
+    for (const std::uint32_t packing : {0u, 2u}) {
+        const Image four = of(131, red + blue + steps + blue + red + std::string(4, '\0'), packing);
+        EXPECT_EQ(four.colour(0, 0), (Rgb{1, 0, 0}));
+        EXPECT_EQ(four.colour(1, 0), (Rgb{0, 0, 1}));
+        EXPECT_NEAR(four.colour(2, 0).r, 2 / 3.0f, 1e-5f);
+        EXPECT_NEAR(four.colour(3, 0).b, 2 / 3.0f, 1e-5f);
+        EXPECT_EQ(four.colour(4, 0), (Rgb{0, 0, 1}));
+    }
+    const Image three = of(133, blue + red + steps + none);  // the first is not above the second
+    EXPECT_NEAR(three.colour(2, 0).r, 128 / 255.0f, 1e-5f);
+    EXPECT_EQ(three.alpha(3, 0), 0);
+    EXPECT_EQ(three.alpha(2, 0), 1);
+    const std::string alphas("\x10\xf2", 2);  // 0, 1, 2 and 15 of 15
+    const Image bc2 = of(135, alphas + std::string(6, '\0') + red + blue + steps + none + none);
+    EXPECT_NEAR(bc2.alpha(1, 0), 1 / 15.0f, 1e-5f);
+    EXPECT_NEAR(bc2.alpha(3, 0), 1, 1e-5f);
+    // 140 and 0: pixels 0 … 3 are the first, the second, 6/7 and 1/7 of the first
+    const std::string numbers("\x8c\0\x88\x0e\0\0\0\0", 8);
+    const Image bc3 = of(137, numbers + red + blue + steps + none + none);
+    EXPECT_NEAR(bc3.alpha(0, 0), 140 / 255.0f, 1e-5f);
+    EXPECT_NEAR(bc3.alpha(1, 0), 0, 1e-5f);
+    EXPECT_NEAR(bc3.alpha(2, 0), 120 / 255.0f, 1e-5f);
+    EXPECT_NEAR(bc3.alpha(3, 0), 20 / 255.0f, 1e-5f);
+    const Image bc4 = of(139, numbers + none);
+    EXPECT_NEAR(bc4.colour(2, 0).b, 120 / 255.0f, 1e-5f);
+    const Image bc5 = of(141, numbers + std::string("\xff", 1) + std::string(7, '\0') + none + none);
+    EXPECT_NEAR(bc5.colour(2, 0).r, 120 / 255.0f, 1e-5f);
+    EXPECT_EQ(bc5.colour(2, 0).g, 1);
+    EXPECT_EQ(bc5.colour(2, 0).b, 0);
+    EXPECT_THAT(error_of(test::ktx({.format = 131, .width = 5, .height = 1}, none)), HasSubstr("ends early"));
+}
+
 TEST(Ktx, SaysWhichRowIsTheFirst) {
     const std::string up("\x12\0\0\0KTXorientation\0ru\0\0\0", 24);
     const Image image = read(test::ktx({.keys = up}, level(3)));

@@ -230,7 +230,7 @@ TEST(MitsubaPlugins, ThatAreNotSupportedAreNamed) {
     for (const std::string type : {"collimated", "directionalarea", "volumelight"})
         EXPECT_THAT(warnings_of(read(ball + "<emitter type='" + type + "'/>")),
                     HasSubstr("emitter '" + type + "' is not supported"));
-    for (const std::string type : {"radiancemeter", "spherical", "irradiancemeter", "distant", "batch"})
+    for (const std::string type : {"radiancemeter", "telecentric", "irradiancemeter", "distant", "batch"})
         EXPECT_THAT(warnings_of(read(ball + "<sensor type='" + type + "'/>")), HasSubstr("sensor '" + type + "'"));
     for (const std::string type : {"wireframe", "curvature", "gridtexture", "volume"})
         EXPECT_THAT(warnings_of(read("<shape type='sphere'><bsdf type='diffuse'><texture name='reflectance' type='" +

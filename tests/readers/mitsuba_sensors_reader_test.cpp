@@ -228,6 +228,31 @@ TEST(MitsubaSensor, MayBeALensOrHaveParallelRays) {
     EXPECT_EQ(flat.camera.screen, (std::array<float, 4>{-3, 3, -1.5f, 1.5f}));
 }
 
+// by the formula of version 0.6, where +x is left of a camera
+TEST(MitsubaSensor, MaySeeAllAround) {
+    const auto scene = seen_by("type='spherical'><transform name='toWorld'><translate x='1'/></transform>" + wide_film);
+    ASSERT_TRUE(std::holds_alternative<LatitudeLongitude>(scene.camera.projection));
+    const LatitudeLongitude::View view(scene.camera, {200, 100});
+    const auto expect_towards = [&](float x, float y, Vec3 direction) {
+        EXPECT_LT(length(view.ray(x, y).direction - direction), 1e-5f) << x;
+    };
+    expect_towards(100, 50, {0, 0, 1});
+    expect_towards(50, 50, {1, 0, 0});
+    expect_towards(150, 50, {-1, 0, 0});
+    expect_towards(0, 50, {0, 0, -1});
+    expect_towards(100, 25, {0, std::sqrt(0.5f), std::sqrt(0.5f)});
+    EXPECT_EQ(view.ray(3, 4).origin, (Vec3{1, 0, 0}));
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("sensor")));
+}
+
+TEST(MitsubaFilm, NamesResponsesThatItDoesNotHave) {
+    EXPECT_THAT(warnings_of(seen_by(
+                    "type='perspective'><film type='specfilm'><spectrum name='a' value='400:1, 700:0'/></film>")),
+                HasSubstr("the response functions of 'specfilm' are left out"));
+    EXPECT_THAT(warnings_of(seen_by("type='telecentric'>")),
+                HasSubstr("sensor 'telecentric' is not known: a perspective"));
+}
+
 TEST(MitsubaFilm, MayBeCropped) {
     const auto scene = seen_by(
         "type='perspective'><float name='fov' value='50'/><film type='hdrfilm'><integer name='width' value='100'/>"

@@ -1,4 +1,5 @@
-// KTX 2: plain pixels, also packed by zstd or deflate; of several levels, layers and faces the first.
+// KTX 2: plain pixels and blocks of BC1 to BC5, also packed by zstd or deflate; of several levels, layers and faces the
+// first.
 #include <half.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -6,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/readers/images/image_blocks.hpp"
 #include "core/readers/images/image_bytes.hpp"
 
 namespace lightnet::decoders {
@@ -22,8 +25,13 @@ struct KtxFormat {
     std::size_t channels;
     KtxNumber of = KtxNumber::bytes;
     bool blue_first = false;
+    std::optional<Blocks> blocks{};  // which become bytes of four channels, of which `channels` count
     std::size_t pixel() const { return channels * (of == KtxNumber::bytes ? 1 : of == KtxNumber::floats ? 4 : 2); }
 };
+
+constexpr KtxFormat of_blocks(std::uint32_t number, std::size_t channels, Blocks blocks) {
+    return {number, channels, KtxNumber::bytes, false, blocks};
+}
 
 constexpr std::array ktx_formats{KtxFormat{9, 1},
                                  KtxFormat{15, 1},
@@ -48,7 +56,17 @@ constexpr std::array ktx_formats{KtxFormat{9, 1},
                                  KtxFormat{100, 1, KtxNumber::floats},
                                  KtxFormat{103, 2, KtxNumber::floats},  //
                                  KtxFormat{106, 3, KtxNumber::floats},
-                                 KtxFormat{109, 4, KtxNumber::floats}};
+                                 KtxFormat{109, 4, KtxNumber::floats},
+                                 of_blocks(131, 3, Blocks::bc1),
+                                 of_blocks(132, 3, Blocks::bc1),  // UNORM, SRGB
+                                 of_blocks(133, 4, Blocks::bc1_with_alpha),
+                                 of_blocks(134, 4, Blocks::bc1_with_alpha),
+                                 of_blocks(135, 4, Blocks::bc2),
+                                 of_blocks(136, 4, Blocks::bc2),
+                                 of_blocks(137, 4, Blocks::bc3),
+                                 of_blocks(138, 4, Blocks::bc3),
+                                 of_blocks(139, 1, Blocks::bc4),
+                                 of_blocks(141, 2, Blocks::bc5)};
 
 enum KtxPacking : std::uint32_t { ktx_plain, ktx_basis, ktx_zstd, ktx_deflate };
 
@@ -59,6 +77,10 @@ struct KtxHeader {
     bool from_bottom = false;
     std::string swizzle;
     std::size_t pixels() const { return std::size_t{width} * height; }
+    std::size_t bytes() const {
+        return format.blocks ? count_of_blocks(width, height) * bytes_of_block(*format.blocks)
+                             : pixels() * format.pixel();
+    }
 };
 
 /// The text that stands under that key; "": none.
@@ -87,7 +109,7 @@ KtxHeader ktx_header(const LowFirst& file) {
     const auto* format = std::ranges::find(ktx_formats, number, &KtxFormat::number);
     if (format == ktx_formats.end())
         file.refuse("pixels of Vulkan's format " + std::to_string(number) +
-                    " are not supported (8, 16 and 32 bits are)");
+                    " are not supported (8, 16 and 32 bits and BC1 to BC5 are)");
     if (header.packing > ktx_deflate) file.refuse("packing " + std::to_string(header.packing) + " is not supported");
     header.format = *format;
     header.width = file.four(20), header.height = std::max(1u, file.four(24));
@@ -101,7 +123,7 @@ KtxHeader ktx_header(const LowFirst& file) {
 /// The bytes of the largest level, of which the first picture is wanted.
 std::vector<std::uint8_t> ktx_level(const LowFirst& file, const KtxHeader& header) {
     const Input packed = file.piece(header.level, header.level_size);
-    const std::size_t wanted = header.pixels() * header.format.pixel();
+    const std::size_t wanted = header.bytes();
     std::vector<std::uint8_t> bytes;
     if (header.packing == ktx_plain) {
         if (packed.size() < wanted) file.refuse("the file ends early");
@@ -140,9 +162,10 @@ constexpr std::size_t ktx_nowhere = ~std::size_t{0};
 template <class Take>
 void each_ktx_number(const KtxHeader& header, const KtxMeaning& meaning, Take take) {
     const std::size_t given = header.format.channels, size = header.format.pixel() / given, width = header.width;
+    const std::size_t step = header.format.blocks ? 4 : header.format.pixel();
     for (std::size_t i = 0; i < header.pixels(); ++i) {
         const std::size_t row = i / width, y = header.from_bottom ? header.height - 1 - row : row;
-        const std::size_t pixel = (y * width + i % width) * header.format.pixel();
+        const std::size_t pixel = (y * width + i % width) * step;
         for (std::size_t c = 0; c < meaning.channels(); ++c) {
             const std::size_t which = header.format.blue_first && c < 3 ? 2 - c : c;
             take(which < given ? pixel + which * size : ktx_nowhere);
@@ -188,7 +211,8 @@ Found read_ktx(Input bytes) {
     const KtxHeader header = ktx_header(file);
     check_size(header.width, header.height);
     const KtxMeaning meaning(header);
-    const auto level = ktx_level(file, header);
+    auto level = ktx_level(file, header);
+    if (header.format.blocks) level = unpacked_blocks(*header.format.blocks, level, header.width, header.height);
     const bool whole = header.format.of == KtxNumber::bytes || header.format.of == KtxNumber::words;
     if (whole) return ktx_raster(header, meaning, level);
     return ktx_image(header, meaning, level);

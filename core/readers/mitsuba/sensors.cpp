@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/readers/mitsuba/transforms.hpp"
@@ -34,6 +35,9 @@ FilmData film_of(Properties& sensor) {
         film.crop = {x, std::min(x + wide, 1.0f), y, std::min(y + high, 1.0f)};
     else
         sensor.context().error(*given[0], "the crop window is not inside of the film");
+    if (given[0]->type == "specfilm")
+        sensor.context().warn(
+            *given[0], "the response functions of 'specfilm' are left out: the picture is in red, green and blue");
     properties.ignore_all();  // how pictures are written is the graph's business
     return film;
 }
@@ -90,6 +94,15 @@ Vec3 take_scale(Matrix& t) {
     return scale;
 }
 
+/// Of version 0.6: the picture's middle looks along +z, its left quarter to the left, where pbrt's, whose projection
+/// this is, look along -x and +z.
+void look_around(CameraData& camera) {
+    camera.projection = LatitudeLongitude{};
+    Matrix axes;
+    axes.m[0] = {0, 0, -1, 0}, axes.m[2] = {-1, 0, 0, 0};
+    camera.to_world = camera.to_world * axes;
+}
+
 }  // namespace
 
 SensorDepth set_sensor(const Node& node, const Context& context) {
@@ -110,9 +123,13 @@ SensorDepth set_sensor(const Node& node, const Context& context) {
         camera.projection = Orthographic{};
         camera.screen_given = true;
         camera.screen = {-scale.x, scale.x, -scale.y * float(h / w), scale.y * float(h / w)};
+    } else if (node.type == "spherical") {
+        look_around(camera);
     } else {
         if (node.type != "perspective" && node.type != "thinlens")
-            context.warn(node, fmt::format("sensor '{}' is taken as 'perspective'", node.type));
+            context.warn(node,
+                         fmt::format("sensor '{}' is not known: a perspective one is taken, which sees other things",
+                                     node.type));
         const Extent extent = extent_of(properties, w, h);
         camera.fov = static_cast<float>(2 * std::atan(std::min(extent.x, extent.y)) / one_degree);
     }
@@ -138,6 +155,7 @@ SensorDepth set_sensor(const Node& node, const Context& context) {
     camera.where = node.where;
     scene.camera = camera;
     scene.camera_given = true;
+    if (node.type == "spherical") return {0, std::numeric_limits<float>::infinity()};
     return depth;
 }
 
