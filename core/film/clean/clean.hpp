@@ -20,6 +20,9 @@ enum class CleanQuality { usual, best };
 /// The note of a cleaned picture, an attribute of its file: what was done.
 inline constexpr const char* cleaned_note = "cleaned";
 
+/// The layer beside the sum that says how far the sum without gains is expected to be off.
+inline constexpr const char* clean_error = "clean_error";
+
 /// Filters all layers with the same weights. These come from the sum of the layers without gains and from features of
 /// what is seen, never from gains: remixing what is cleaned gives the same bits as cleaning what is remixed, and the
 /// beauty is the sum of the layers as ever. Mattes, alpha, notes and what is shown beside the sum are kept; halves and

@@ -12,6 +12,20 @@ constexpr float least_noise = 1e-6f;      // of a feature, whose range is about 
 constexpr float least_variation = 1e-3f;  // of a feature over a window, so that it counts
 constexpr std::array<Place, 5> compared{{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};  // means around two pixels
 
+// Of each place of the window, in parts of the centre's: it ends gently, so that no step shows where one does; nothing
+// at the ends of its rows, where vectors are longer.
+constexpr std::array<float, 8 * window_vectors> nearness_to_the_centre() {
+    std::array<float, 8 * window_vectors> all{};
+    const auto along = [](std::size_t place) {
+        const float off = (static_cast<float>(place) - reach) / (reach + 1);
+        return 1 - off * off;
+    };
+    for (std::size_t y = 0; y < window_rows; ++y)
+        for (std::size_t x = 0; x < window_rows; ++x) all[y * 8 * row_vectors + x] = along(x) * along(y);
+    return all;
+}
+alignas(64) constexpr auto nearness = nearness_to_the_centre();
+
 /// All regressions of a centre, with scratch.
 struct Regressing {
     const Guide& guide;
@@ -77,10 +91,8 @@ private:
             const Eight apart = greater_of(distances[k], all_of(0.0f));
             Eight weight = greater_of(1 - apart * scale, all_of(0.0f));
             weight *= weight, weight *= weight, weight *= weight;
-            weights[k] = weight * eight_at(inside + offset_of(k, guide.inside.stride()));
+            weights[k] = weight * eight_at(inside + offset_of(k, guide.inside.stride())) * eight_at(&nearness[8 * k]);
         }
-        for (std::size_t k = row_vectors - 1; k < window_vectors; k += row_vectors)
-            for (std::size_t i = window_rows - 8 * (row_vectors - 1); i < 8; ++i) weights[k][i] = 0;
     }
 
     [[gnu::always_inline]] void collect(const Cells& weights) {

@@ -11,7 +11,7 @@ namespace lightnet::cleaning {
 /// What is worked on at once has this many pixels along a side. The outermost of them serve the others only.
 inline constexpr std::uint32_t area_side = 160;
 /// So far a regression looks from its centre, and serves pixels.
-inline constexpr std::uint32_t reach = 6;
+inline constexpr std::uint32_t reach = 7;
 /// Colours are compared at pixels and so far to their sides.
 inline constexpr std::uint32_t patch = 1;
 /// Choices are smoothed over so many pixels to each side.
