@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t largest_checkpoint = std::uint64_t{64} << 30;
 
 // magic, size of the text, text (JSON), sums, blocks that wait, hash of all before it. Little-endian, as in memory.
-constexpr std::string_view magic = "lightnet checkpoint 4\n";
+constexpr std::string_view magic = "lightnet checkpoint 5\n";
 
 // The hash of all has been checked before it is read.
 constexpr JsonLimits as_large_as_the_film{.bytes = std::size_t{1} << 30, .values = 100'000'000, .depth = 8};
@@ -58,7 +58,7 @@ std::string text_of(const Checkpoint& checkpoint) {
     for (const auto& part : film.parts) {
         JsonTree waiting = JsonTree::list();
         for (const auto& [block, sum] : part.waiting) waiting.push_back({block, sum.blocks, sum.pixels.size()});
-        parts.push_back({part.x, part.y, part.width, part.height, part.next_block, std::move(waiting)});
+        parts.push_back({part.x, part.y, part.width, part.height, part.next_block, std::move(waiting), part.ended});
     }
     return sorted_text({{"of", checkpoint.of},
                         {"samples", film.samples},
@@ -78,9 +78,10 @@ std::vector<Rgb> colours(Reader& reader, std::size_t count) {
 std::uint32_t number(const Json& value) { return value.whole<std::uint32_t>(); }
 
 FilmState::Part part_of(const Json& text, Reader& reader) try {
-    const auto& values = text.list(6);
+    const auto& values = text.list(7);
     FilmState::Part part{number(values[0]), number(values[1]), number(values[2]),
-                         number(values[3]), number(values[4]), {}};
+                         number(values[3]), number(values[4]), {},
+                         values[6].flag()};
     for (const auto& waits : values[5].list()) {
         const auto& sum = waits.list(3);
         FilmState::Sum made{number(sum[1]), colours(reader, number(sum[2]))};
@@ -96,7 +97,7 @@ FilmState film_of(const Json& text, Reader& reader) {
     film.samples = number(text.at("samples"));
     film.sums = colours(reader, text.at("sums").whole<std::size_t>());
     const auto spreads = text.at("spreads").whole<std::size_t>();
-    if (spreads > reader.left() / sizeof(FilmState::Spread)) throw Error("it is damaged");
+    if (spreads > reader.left() / sizeof(PixelSpread)) throw Error("it is damaged");
     film.spreads.resize(spreads);
     reader.get(film.spreads.data(), spreads);
     for (const auto& lost : text.at("lost").list()) film.lost.push_back(lost.whole<std::uint64_t>());

@@ -36,6 +36,7 @@ Film::Film(FilmFormat format)
         if (!lies_within(crop->x, crop->width, format_.width) || !lies_within(crop->y, crop->height, format_.height))
             throw Error("film", "the crop is not inside of the picture");
     all_ = std::uint64_t{blocks_} * window_.pixels();
+    round_ = round_beyond(0, format_);
     lost_.resize(format_.colours());
     try {
         take_room(window_.pixels());
@@ -48,7 +49,7 @@ Film::Film(FilmFormat format)
 }
 
 void Film::take_room(std::size_t pixels) {
-    if (format_.adaptive()) spreads_.resize(pixels);
+    if (format_.adaptive() && !format_.in_rounds()) spreads_.resize(pixels);
     sums_.resize(pixels * format_.colours());
     block_of_.resize(pixels);
     taken_.resize(pixels);
@@ -153,8 +154,8 @@ void Film::blacken(std::span<Rgb> pixels) {
 }
 
 void Film::end_if_enough(Rectangle& rectangle, const Tile& tile) {
-    const bool may_end = format_.adaptive() && rectangle.next_block >= blocks_in(format_.least_samples());
-    if (rectangle.next_block == blocks_ || (may_end && enough(tile))) {
+    const bool may_end = !spreads_.empty() && rectangle.next_block >= blocks_in(format_.least_samples());
+    if (rectangle.next_block == blocks_ || rectangle.ended || (may_end && enough(tile))) {
         rectangle.done = true;
         spared_ += tile.pixels() * (blocks_ - rectangle.next_block);
     }
@@ -176,7 +177,7 @@ std::optional<Tile> Film::next_of(const Tile& place) const {
     const auto known = rectangles_.find({place.x, place.y, place.width, place.height});
     if (known == rectangles_.end() || known->second.done) return std::nullopt;
     const std::uint32_t next = known->second.next_block;
-    if (next < blocks_in(format_.least_samples())) return std::nullopt;
+    if (next < blocks_in(format_.least_samples()) || next >= round_) return std::nullopt;
     return Tile{
         place.x, place.y, place.width, place.height, next * samples_per_block, samples_of(next, format_.samples)};
 }
@@ -195,30 +196,30 @@ std::vector<Tile> Film::more(const Tile& tile) const {
     if (tile.blocks() > 1 && !has(tile)) return one_by_one(tile);
     std::vector<Tile> wanted;
     if (!format_.adaptive()) return wanted;
+    std::vector<Tile> rows;
     for (const Tile& place : cells_of(tile)) {
         const auto next = next_of(place);
         // A block that is not above this one was asked for when its turn came.
         if (!next || next->block() <= tile.block()) continue;
         const Tile& cell = *next;
         // Neighbours of a row go together: fewer tiles for the same work.
-        if (!wanted.empty() && wanted.back().y == cell.y && wanted.back().first_sample == cell.first_sample &&
-            wanted.back().x + wanted.back().width == cell.x)
-            wanted.back().width += cell.width;
+        if (!rows.empty() && rows.back().y == cell.y && rows.back().first_sample == cell.first_sample &&
+            rows.back().x + rows.back().width == cell.x)
+            rows.back().width += cell.width;
         else
-            wanted.push_back(cell);
+            rows.push_back(cell);
     }
-    std::vector<Tile> merged;
-    for (const Tile& run : wanted) {
-        const auto above = std::find_if(merged.begin(), merged.end(), [&](const Tile& other) {
+    for (const Tile& run : rows) {
+        const auto above = std::find_if(wanted.begin(), wanted.end(), [&](const Tile& other) {
             return other.x == run.x && other.width == run.width && other.y + other.height == run.y &&
                    other.first_sample == run.first_sample;
         });
-        if (above == merged.end())
-            merged.push_back(run);
+        if (above == wanted.end())
+            wanted.push_back(run);
         else
             above->height += run.height;
     }
-    return merged;
+    return wanted;
 }
 
 bool Film::has(const Tile& tile) const {
@@ -283,43 +284,23 @@ void Film::fold(const Tile& tile, std::uint32_t blocks, std::span<const Rgb> pix
                 lost_[k] += !finite(*next);
             }
             addition_(std::span(sums_).subspan(pixel * layers, layers), sound);
-            if (format_.adaptive())
-                note(pixel, std::span(sound).first(format_.layers.size()),
-                     samples_of(block_of_[pixel], format_.samples));
+            if (!spreads_.empty()) {
+                const std::uint32_t samples = samples_of(block_of_[pixel], format_.samples);
+                const auto layers_end = sound.begin() + std::ptrdiff_t(format_.layers.size());
+                spreads_.note(pixel, std::accumulate(sound.begin(), layers_end, Rgb{}), double(scale_) / samples,
+                              block_of_[pixel]);
+            }
             block_of_[pixel] += blocks;
         }
     folded_ += tile.pixels() * blocks;
 }
 
-void Film::note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t samples) {
-    const auto& [r, g, b] = std::accumulate(layers.begin(), layers.end(), Rgb{});
-    const double weight = double(scale_) / samples, block[3] = {r * weight, g * weight, b * weight};
-    Spread& spread = spreads_[pixel];
-    for (int c = 0; c < 3; ++c) {
-        const double step = block[c] - spread.mean[c];
-        spread.mean[c] += step / (block_of_[pixel] + 1);
-        spread.squares[c] += step * (block[c] - spread.mean[c]);
-    }
-}
-
-namespace {
-
-// What a pixel whose channels add up to this has its noise compared with. Black ones are compared with a little.
-double scale_of_noise(double sum) { return 1e-4 + (sum < 1 ? std::sqrt(std::max(0.0, sum)) : sum); }
-
-}  // namespace
-
 // DECISIONS: samples-by-cell
 bool Film::enough(const Tile& cell) const {
     double sum = 0;
     for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y)
-        for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
-            const auto& [mean, squares] = spreads_[index(x, y)];
-            const double blocks = block_of_[index(x, y)];
-            double deviation = 0;
-            for (const double square : squares) deviation += std::sqrt(square / (blocks * (blocks - 1)));
-            sum += deviation / scale_of_noise(mean[0] + mean[1] + mean[2]);
-        }
+        for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x)
+            sum += spreads_.noise_of(index(x, y), block_of_[index(x, y)]);
     return sum <= double(format_.refinement.noise) * double(cell.pixels());
 }
 

@@ -15,6 +15,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/film/addition.hpp"
 #include "core/film/picture.hpp"
+#include "core/film/spreads.hpp"
 #include "core/film/tile.hpp"
 #include "core/film/window.hpp"
 
@@ -45,7 +46,8 @@ std::vector<Tile> tiles_of(std::uint32_t width, std::uint32_t height, std::uint3
 /// a side, from its upper left corner. Fixed for ever, like samples_per_block.
 inline constexpr std::uint32_t cell_size = 8;
 
-/// When a cell has samples enough. Decided from its own blocks alone, in the order of their index.
+/// When a cell has samples enough. Decided from its own blocks alone, in the order of their index; of a picture that is
+/// to be cleaned, from all of it, when a round is over.
 struct Refinement {
     float noise = 0;          // of a cell's pixels: see Film; 0: every pixel gets all samples
     std::uint32_t least = 0;  // samples that every pixel gets; taken up to whole blocks, and at least two
@@ -88,6 +90,8 @@ struct FilmFormat {
     bool halves() const;
     /// Samples differ from cell to cell.
     bool adaptive() const { return refinement.noise > 0; }
+    /// Cells end by what cleaning leaves of their noise.
+    bool in_rounds() const { return adaptive() && halves(); }
     /// Samples that every pixel gets.
     std::uint32_t least_samples() const;
     /// What must be rendered: the crop, and where cells decide, all of each cell that it touches, so that a pixel is
@@ -98,6 +102,11 @@ struct FilmFormat {
 /// The tiles that such a film needs in any case. Where cells decide, tiles are single blocks of whole cells, and
 /// Film::more() gives the others.
 std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size);
+
+/// How many blocks those cells have with which a round of such a film ends, where that is the first one of more than
+/// `blocks`: the least samples, and then each time half as many more, but no more than all. All of them, where cells
+/// decide by themselves.
+std::uint32_t round_beyond(std::uint32_t blocks, const FilmFormat& format);
 
 /// What a film holds, to be kept and taken up again, by a film of as many samples or more. A value.
 struct FilmState {
@@ -113,16 +122,12 @@ struct FilmState {
         std::uint32_t x = 0, y = 0, width = 0, height = 0;
         std::uint32_t next_block = 0;  // the first one that is not in the sums
         Waiting waiting;
+        bool ended = false;  // by a round
         friend bool operator==(const Part&, const Part&) = default;
     };
-    /// Of a pixel's blocks, per channel (Welford 1962).
-    struct Spread {
-        double mean[3] = {}, squares[3] = {};
-        friend bool operator==(const Spread&, const Spread&) = default;
-    };
-    std::uint32_t samples = 0;    // of its film
-    std::vector<Rgb> sums;        // pixel × layer
-    std::vector<Spread> spreads;  // per pixel, where cells decide
+    std::uint32_t samples = 0;         // of its film
+    std::vector<Rgb> sums;             // pixel × layer
+    std::vector<PixelSpread> spreads;  // per pixel, where cells decide by themselves
     std::vector<std::uint64_t> lost;
     std::vector<Part> parts;
     friend bool operator==(const FilmState&, const FilmState&) = default;
@@ -146,6 +151,10 @@ struct FilmState {
 /// scrambled sequence complete each other, so v is rather too large than too small; what no block has found (a caustic
 /// that is met once in a thousand samples) it can't know of, and as samples decide about their own number, pixels come
 /// out too dark by a part of their error.
+///
+/// A film that shows halves, by which a picture is cleaned, does so in rounds: as soon as all cells that go on have
+/// their least samples, half as many more, and so on, the picture so far is cleaned, and those cells end whose noise,
+/// by what clean() says that they are still off by, is at most what is wanted.
 class Film {
 public:
     /// Throws Error on a format without pixels, samples or layers, or with two layers of one name.
@@ -164,6 +173,11 @@ public:
     std::vector<Tile> more(const Tile& tile) const;
     /// All tiles that a film that was taken up goes on with, beside what tiles_of() gives.
     std::vector<Tile> going_on() const;
+
+    /// No tile is wanted any more before end_round(). False where cells decide by themselves.
+    bool round_is_over() const;
+    /// Takes what is left of the noise of each pixel of picture(), and gives what is wanted for the next round.
+    std::vector<Tile> end_round(std::span<const double> noise);
 
     /// Is all of this tile there already?
     bool has(const Tile& tile) const;
@@ -219,10 +233,10 @@ private:
     struct Rectangle {
         std::uint32_t next_block = 0;  // the first one that is not in the sums
         FilmState::Waiting waiting;
-        bool done = false;  // needs no further block
+        bool done = false;   // needs no further block
+        bool ended = false;  // by a round
         bool has(std::uint32_t block) const;
     };
-    using Spread = FilmState::Spread;
     using Area = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // x, y, width, height
 
     void take_room(std::size_t pixels);
@@ -242,9 +256,7 @@ private:
     Shown shown_of(const Tile& tile) const;
     Rgb seen_as(std::size_t view, std::span<const Rgb> pixel, float samples) const;
     void expect_can_wait(const FilmState::Part& part) const;
-    void expect_nothing_elsewhere() const;
     void take_up(FilmState::Part part);
-    std::optional<std::uint32_t> even_blocks() const;
     bool is_whole(const Tile& tile) const;
     bool add_area(const Tile& tile, std::span<const Rgb> pixels);
     void keep(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels);
@@ -253,7 +265,6 @@ private:
     void blacken(std::span<Rgb> pixels);
     void fold(const Tile& tile, std::uint32_t blocks, std::span<const Rgb> pixels);
     void fold_next(Rectangle& rectangle, const Tile& tile, std::span<const Rgb> pixels);
-    void note(std::size_t pixel, std::span<const Rgb> layers, std::uint32_t samples);
     bool enough(const Tile& cell) const;
     std::size_t index(std::uint32_t x, std::uint32_t y) const {
         return std::size_t{y - window_.y} * window_.width + (x - window_.x);
@@ -266,7 +277,8 @@ private:
     std::uint32_t blocks_ = 0;
     std::vector<Rgb> sums_;                // pixel × layer; without groups that are open
     std::vector<std::uint32_t> block_of_;  // per pixel: how many blocks are in its sums
-    std::vector<Spread> spreads_;          // per pixel, where cells decide
+    Spreads spreads_;                      // where cells decide by themselves
+    std::uint32_t round_ = 0;              // blocks at which cells that go on wait for each other
     std::vector<bool> taken_;              // per pixel: it lies in a rectangle that was seen
     std::map<Area, Rectangle> rectangles_;
     std::uint64_t folded_ = 0, spared_ = 0, all_ = 0;  // pixels × blocks: in the sums, not needed, at most

@@ -17,12 +17,12 @@ FilmState Film::state() const {
 void Film::state(FilmState& into) const {
     into.samples = format_.samples;
     into.sums = sums_;
-    into.spreads = spreads_;
+    into.spreads = spreads_.all();
     into.lost = lost_;
     into.parts.clear();
     for (const auto& [area, rectangle] : rectangles_) {
         const auto& [x, y, width, height] = area;
-        into.parts.push_back({x, y, width, height, rectangle.next_block, rectangle.waiting});
+        into.parts.push_back({x, y, width, height, rectangle.next_block, rectangle.waiting, rectangle.ended});
     }
 }
 
@@ -45,6 +45,7 @@ void Film::take_up(FilmState::Part part) {
     const Area area{part.x, part.y, part.width, part.height};
     if (rectangles_.contains(area)) throw Error("film", "what is taken up has a part twice");
     if (part.next_block > blocks_) throw Error("film", "what is taken up has more samples");
+    if (part.ended && !format_.in_rounds()) throw Error("film", "what is taken up has a part that ended too early");
     if (part.next_block < blocks_ && group_of(part.next_block).first != part.next_block)
         throw Error("film", "what is taken up has a part of a group");
     if (part.next_block == blocks_ && is_open(group_of(blocks_ - 1)))
@@ -52,6 +53,7 @@ void Film::take_up(FilmState::Part part) {
     expect_can_wait(part);
     auto& rectangle = rectangle_of(tile);
     rectangle.next_block = part.next_block;
+    rectangle.ended = part.ended;
     for (auto& [block, sum] : part.waiting)
         if (const Blocks together = handed_out(block); block != together.first || sum.blocks != together.count)
             blacken(sum.pixels);
@@ -61,25 +63,30 @@ void Film::take_up(FilmState::Part part) {
     folded_ += tile.pixels() * part.next_block;
 }
 
+namespace {
+
 // A part that was left out would be added a second time.
-void Film::expect_nothing_elsewhere() const {
-    const std::size_t layers = format_.colours();
-    for (std::size_t pixel = 0; pixel < block_of_.size(); ++pixel) {
-        if (block_of_[pixel] > 0) continue;
-        bool nothing = spreads_.empty() || spreads_[pixel] == Spread{};
-        for (std::size_t k = 0; k < layers; ++k) nothing = nothing && sums_[pixel * layers + k] == Rgb{};
+void expect_nothing_elsewhere(const std::vector<Rgb>& sums, const std::vector<PixelSpread>& spreads,
+                              const std::vector<std::uint32_t>& block_of) {
+    const std::size_t colours = sums.size() / block_of.size();
+    for (std::size_t pixel = 0; pixel < block_of.size(); ++pixel) {
+        if (block_of[pixel] > 0) continue;
+        bool nothing = spreads.empty() || spreads[pixel] == PixelSpread{};
+        for (std::size_t k = 0; k < colours; ++k) nothing = nothing && sums[pixel * colours + k] == Rgb{};
         if (!nothing) throw Error("film", "what is taken up lacks a part that its sums have");
     }
 }
 
+}  // namespace
+
 void Film::restore(FilmState state) {
     if (!rectangles_.empty()) throw Error("film", "only an empty film can take up another");
-    if (state.sums.size() != sums_.size() || state.spreads.size() != spreads_.size() ||
+    if (state.sums.size() != sums_.size() || state.spreads.size() != spreads_.all().size() ||
         state.lost.size() != lost_.size())
         throw Error("film", "what is taken up is of another size");
     if (state.samples > format_.samples) throw Error("film", "what is taken up is of more samples");
     sums_ = std::move(state.sums);
-    spreads_ = std::move(state.spreads);
+    spreads_.take(std::move(state.spreads));
     lost_ = std::move(state.lost);
     const bool grows = state.samples < format_.samples && state.samples % samples_per_block > 0;
     for (auto& part : state.parts) {
@@ -87,16 +94,24 @@ void Film::restore(FilmState state) {
         if (grows) part.waiting.erase(state.samples / samples_per_block);
         take_up(std::move(part));
     }
-    expect_nothing_elsewhere();
+    expect_nothing_elsewhere(sums_, spreads_.all(), block_of_);
+    std::uint32_t least = blocks_, most = 0;
     for (auto& [area, rectangle] : rectangles_) {
         const auto& [x, y, width, height] = area;
         end_if_enough(rectangle, {x, y, width, height});
         end_if_open_group_is_there(rectangle, {x, y, width, height});
+        if (rectangle.done) continue;
+        least = std::min(least, rectangle.next_block);
+        most = std::max(most, rectangle.next_block);
     }
+    // Where all that go on are at the end of a round, it is ended once more, in the same way: a film of fewer samples
+    // had no need to.
+    if (std::find(taken_.begin(), taken_.end(), false) == taken_.end())
+        round_ = round_beyond(least == most && least > 0 ? least - 1 : least, format_);
 }
 
 // None: they differ from place to place, or some are missing before others.
-std::optional<std::uint32_t> Film::even_blocks() const {
+std::optional<std::uint32_t> Film::even_samples() const {
     std::optional<std::uint32_t> blocks;
     std::size_t pixels = 0;
     for (const auto& [area, rectangle] : rectangles_) {
@@ -109,12 +124,7 @@ std::optional<std::uint32_t> Film::even_blocks() const {
         blocks = there;
         pixels += std::size_t{std::get<2>(area)} * std::get<3>(area);
     }
-    return pixels == window_.pixels() && blocks > 0u ? blocks : std::nullopt;
-}
-
-std::optional<std::uint32_t> Film::even_samples() const {
-    const auto blocks = even_blocks();
-    if (!blocks) return std::nullopt;
+    if (pixels != window_.pixels() || !(blocks > 0u)) return std::nullopt;
     return std::min(*blocks * samples_per_block, format_.samples);
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "tests/modes/daemons.hpp"
@@ -15,9 +16,11 @@ using Words = std::vector<std::string>;
 class CleanRun : public ::testing::Test {
 protected:
     void render(const Words& more) const {
-        Words words{"--size", "40x32", "--samples", "8", "--clean"};
+        Words words{"--size", "40x32", "--clean"};
+        if (std::find(more.begin(), more.end(), "--samples") == more.end())
+            words.insert(words.end(), {"--samples", "8"});
         words.insert(words.end(), more.begin(), more.end());
-        Process run(launch_words(graph_file("cornell.lua"), folder / "x.exr", words));
+        Process run(with_environment(launch_words(graph_file("cornell.lua"), folder / "x.exr", words)));
         ASSERT_EQ(run.wait(), 0) << run.output();
     }
     std::string cleaned_in_run(const Words& more) const {
@@ -27,11 +30,17 @@ protected:
     std::string made(const Words& words, int code = 0) const {
         Words all{program("lightnet")};
         all.insert(all.end(), words.begin(), words.end());
-        Process run(all);
+        Process run(with_environment(all));
         EXPECT_EQ(run.wait(), code) << run.output();
         return run.output();
     }
+    Words with_environment(const Words& words) const {
+        Words all{"/usr/bin/env", "LIGHTNET_VECTORS=" + vectors};
+        all.insert(all.end(), words.begin(), words.end());
+        return all;
+    }
     const Folder folder;
+    std::string vectors;  // as wide as these; "": as wide as can be
 };
 
 TEST_F(CleanRun, GivesTheSameBytesInEveryMode) {
@@ -39,6 +48,27 @@ TEST_F(CleanRun, GivesTheSameBytesInEveryMode) {
     EXPECT_FALSE(serial.empty());
     EXPECT_EQ(cleaned_in_run({"--threads", "3", "--tile", "11"}), serial);
     EXPECT_EQ(cleaned_in_run({"--local-workers", "2"}), serial);
+}
+
+TEST_F(CleanRun, EndsCellsByTheCleanedPictureInEveryMode) {
+    const auto ended = [&](Words more) {
+        more.insert(more.end(), {"--samples", "256", "--noise", "0.04"});
+        const auto cleaned = cleaned_in_run(more);
+        return cleaned + bytes_of(folder / "x.exr");
+    };
+    const auto serial = ended({"--threads", "1"});
+    EXPECT_THAT(bytes_of(folder / "x.run.json"), HasSubstr("mean_samples"));
+    EXPECT_TRUE(ended({"--threads", "3", "--tile", "11"}) == serial);
+    EXPECT_TRUE(ended({"--local-workers", "2"}) == serial);
+}
+
+TEST_F(CleanRun, HasTheSameBytesWithNarrowVectors) {
+    const auto wide = cleaned_in_run({"--threads", "1"});
+    made({"clean", folder / "x.exr", "--best", "-o", folder / "wide.exr"});
+    vectors = "narrow";
+    EXPECT_EQ(cleaned_in_run({"--threads", "1"}), wide);
+    made({"clean", folder / "x.exr", "--best", "-o", folder / "narrow.exr"});
+    EXPECT_EQ(bytes_of(folder / "narrow.exr"), bytes_of(folder / "wide.exr"));
 }
 
 TEST_F(CleanRun, IsWhatTheVerbMakesLater) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/film/clean/rounds.hpp"
 #include "core/run/message/message.hpp"
 
 namespace lightnet {
@@ -83,6 +84,7 @@ std::vector<Tile> FilmSteps::next(Time now) {
         adds_ = uneven ? 0 : samples - there_ / samples_per_block * samples_per_block;
         grow_to(samples);
         auto tiles = lacking();
+        end_round_if_over(film_);  // of a film that was taken up; what it wants is among what it goes on with
         const auto more = film_.going_on();
         tiles.insert(tiles.end(), more.begin(), more.end());
         if (!tiles.empty()) return tiles;

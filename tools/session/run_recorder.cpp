@@ -13,6 +13,7 @@
 #include "core/base/own_process.hpp"
 #include "core/base/plain_file.hpp"
 #include "core/base/this_machine.hpp"
+#include "core/film/clean/rounds.hpp"
 #include "core/film/exr.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/run/message/message.hpp"
@@ -145,6 +146,9 @@ std::vector<Tile> RunRecorder::take(const Tile& tile, std::span<const Rgb> pixel
     Film& film = steps_.film();
     const bool added = film.add(tile, pixels);
     const bool wanted = added || !film.has(tile);
+    auto next = wanted ? film.more(tile) : std::vector<Tile>{};
+    const auto of_round = added ? end_round_if_over(film) : std::vector<Tile>{};
+    next.insert(next.end(), of_round.begin(), of_round.end());
     if (added && steps_.lasts(tile)) blocks_ += tile.blocks();
     if (!wanted) ++repeated_;
     if (watcher_) watcher_->taken(tile), watcher_->look(film);
@@ -152,7 +156,7 @@ std::vector<Tile> RunRecorder::take(const Tile& tile, std::span<const Rgb> pixel
     if (preview_ && preview_->pace.due(Clock::now()) && !steps_.finished()) write_preview();
     if (checkpoint_)
         if (const auto why = checkpoint_->save_if_due(blocks_); !why.empty()) alert("no checkpoint: " + why);
-    return wanted ? film.more(tile) : std::vector<Tile>{};
+    return next;
 }
 
 // In blocks of tiles, which differ in size where cells decide.
@@ -313,7 +317,7 @@ bool RunRecorder::is_written(const std::string& exr) const { return holds(exr, e
 
 void RunRecorder::write_report_page(const std::string& html) {
     expect_ours(html, report_page_beginning);
-    write_file(html, report_page(*watcher_, steps_.picture().picture(scale_), facts_of(report_, watcher_->at_work())));
+    write_file(html, report_page(*watcher_, steps_.picture(), facts_of(report_, watcher_->at_work())));
 }
 
 void RunRecorder::conclude(const Hosts& asked, double exposure) {
