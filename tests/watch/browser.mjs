@@ -64,6 +64,21 @@ try {
         return page;
     };
 
+    // What a PNG of the folder has.
+    const pixels_of = async (name) => {
+        const { readFileSync } = await import("node:fs");
+        const png = readFileSync(join(folder, name)).toString("base64");
+        return (await open("data:text/html,<p>")).evaluate(async (base64) => {
+            const image = new Image();
+            image.src = `data:image/png;base64,${base64}`;
+            await image.decode();
+            const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
+            const context = canvas.getContext("2d", { colorSpace: "srgb" });
+            context.drawImage(image, 0, 0);
+            return [...context.getImageData(0, 0, image.width, image.height).data];
+        }, png);
+    };
+
     // A run in which a daemon is killed and another one is taken out.
     const daemons = [await daemon(), await daemon(), await daemon()];
     const run = await render(daemons, "x.exr", ["--size", "256x256", "--samples", "4096", "--report", join(folder, "run.html")]);
@@ -124,7 +139,7 @@ try {
     await page.close();
 
     // A finished picture, mixed in the page and by the program.
-    const short = await render([daemons[2]], "y.exr", ["--size", "128x128", "--samples", "256", "--report", join(folder, "y.html")]);
+    const short = await render([daemons[2]], "y.exr", ["--size", "128x128", "--samples", "256", "--clean", "--report", join(folder, "y.html")]);
     const short_page = await open((await short.hears(/watch it at (\S+)/))[1]);
     await short_page.waitForFunction(() => document.querySelector('[data-testid="standing"]').textContent === "done", null,
         { timeout: 60000 });
@@ -137,28 +152,41 @@ try {
             ["remix", "y.exr", `direct=${direct}`, `bounce=${bounce}`, "-o", "z.exr"], { cwd: folder });
         assert.equal(mixed.status, 0, String(mixed.stderr));
         await pause(400);
-        const { readFileSync } = await import("node:fs");
-        const png = readFileSync(join(folder, "z.png")).toString("base64");
-        const theirs = await (await open("data:text/html,<p>")).evaluate(async (base64) => {
-            const image = new Image();
-            image.src = `data:image/png;base64,${base64}`;
-            await image.decode();
-            const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
-            const context = canvas.getContext("2d", { colorSpace: "srgb" });
-            context.drawImage(image, 0, 0);
-            return [...context.getImageData(0, 0, image.width, image.height).data];
-        }, png);
+        const theirs = await pixels_of("z.png");
         const ours = await pixels(short_page);
         const differing = ours.filter((value, i) => value !== theirs[i]).length;
         assert.equal(differing, 0, `gains ${direct}, ${bounce}: ${differing} of ${ours.length} values differ from lightnet remix`);
     }
     await shot(short_page, "gains-light-1400");
 
+    // The same without its noise, and half of it with.
+    await short_page.getByText("reset").click();
+    await short_page.getByTestId("cleaned").check();
+    const [noisy, quiet] = [await pixels_of("y.png"), await pixels_of("y.clean.png")];
+    for (const from of [0, 0.5]) {
+        await short_page.getByTestId("clean-from").fill(String(from));
+        await pause(400);
+        const ours = await pixels(short_page);
+        const wanted = quiet.map((value, i) => ((i / 4) % 128 < from * 128 ? noisy[i] : value));
+        const differing = ours.filter((value, i) => value !== wanted[i]).length;
+        assert.equal(differing, 0, `cleaned from ${from}: ${differing} of ${ours.length} values differ from the files`);
+    }
+    assert.notDeepEqual(noisy, quiet);
+    await shot(short_page, "cleaned-light-1400");
+
     const report = await open(`file://${join(folder, "y.html")}`);
     await report.waitForSelector("text=Nodes and edges");
     assert.match(await report.getByTestId("edges").textContent(), /lighting → bounce/);
     assert(sum(await pixels(report)) > 128 * 128 * 255, "the report has a picture");
     await report.getByTestId("forecast").waitFor();
+    const with_noise = await pixels(report);
+    await report.getByTestId("cleaned").check();
+    await pause(400);
+    const without = await pixels(report);
+    const far = without.filter((value, i) => Math.abs(value - quiet[i]) > 6).length;
+    assert.equal(far, 0, `the report's cleaned picture is off at ${far} values`);
+    assert.notDeepEqual(without, with_noise);
+    await report.getByTestId("clean-from").fill("0.5");
     await shot(report, "report-light-1400");
     const report_dark = await open(`file://${join(folder, "run.html")}`, { colorScheme: "dark", viewport: { width: 600, height: 900 } });
     await report_dark.waitForSelector("text=/is lost/");

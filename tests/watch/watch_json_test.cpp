@@ -35,6 +35,19 @@ TEST(WatchedRunJson, SaysWhichColoursAreThePictureOfEachNode) {
     EXPECT_EQ(hello["levels"].size(), 255u);
 }
 
+TEST(WatchedRunJson, NamesLayersWithoutNoiseBehindTheOthers) {
+    const Registry registry = fake_registry();
+    const FilmFormat format{8, 4, {"a", "b"}, 16, {}, {}, {}, {"half.a", "half.b"}};
+    const auto hello = nlohmann::json::parse(hello_json({small_graph(), registry, format, "x.exr"}))["hello"];
+    EXPECT_EQ(hello["cleaned"], 4);
+    ASSERT_EQ(hello["colours"].size(), 6u);
+    EXPECT_EQ(hello["colours"][5]["name"], "clean.b");
+    EXPECT_EQ(hello["colours"][5]["layer"], false);
+    const FilmFormat plain{8, 4, {"a"}, 16};
+    const auto without = nlohmann::json::parse(hello_json({small_graph(), registry, plain, "x.exr"}))["hello"];
+    EXPECT_FALSE(without.contains("cleaned"));
+}
+
 TEST(WatchedStateJson, AddsUpWhatHostsSay) {
     const HostFigures figures{{{1, 2, 3, 4}}, std::vector<NodeFigures>(6, {1, 2, 3, 4, 5, 6, 7}), {{8, 1, 2, 3}, {9}}};
     WatchedState state;

@@ -120,7 +120,7 @@ std::string TevPreview::packet_of(const char*& bytes) const {
     Window where;
     for (auto* number : {&where.x, &where.y, &where.width, &where.height}) *number = number_at<std::uint16_t>(bytes);
     const auto& format = options_.format;
-    const std::size_t pixels = where.pixels(), colours = format.views().size();
+    const std::size_t pixels = where.pixels(), colours = board_.colours();
     std::vector<Rgb> given(pixels * colours);
     std::memcpy(given.data(), bytes, given.size() * sizeof(Rgb));
     bytes += given.size() * sizeof(Rgb);
@@ -138,7 +138,7 @@ std::string TevPreview::packet_of(const char*& bytes) const {
     const auto add = [&](const Rgb& colour) { values.insert(values.end(), {colour.r, colour.g, colour.b}); };
     for (std::size_t i = 0; i < pixels; ++i) {
         add(part.beauty[i]);
-        for (std::size_t k = 0; k < colours; ++k) add(given[i * colours + k]);
+        for (std::size_t k = 0; k < format.views().size(); ++k) add(given[i * colours + k]);
     }
     return tev_update_image(options_.name, channels_, where, values);
 }

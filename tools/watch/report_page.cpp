@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/json.hpp"
 #include "core/base/json_tree.hpp"
+#include "tools/watch/live_cleaning.hpp"
 #include "tools/watch/watch_page.hpp"
 
 namespace lightnet {
@@ -36,29 +37,41 @@ std::string_view bytes_of(const std::vector<std::uint32_t>& words) {
     return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof words[0]};
 }
 
-std::vector<const std::vector<Rgb>*> colours_of(const Picture& picture) {
-    std::vector<const std::vector<Rgb>*> colours;
-    for (const auto* layers : {&picture.layers, &picture.shown})
-        for (const auto& layer : *layers) colours.push_back(&layer.pixels);
-    return colours;
+/// The pixels that are shown of a picture, in both directions every step-th one.
+struct Sieve {
+    Window window;
+    std::size_t colours;
+    std::uint32_t step = 1;
+    std::uint32_t width() const { return (window.width + step - 1) / step; }
+    std::uint32_t height() const { return (window.height + step - 1) / step; }
+    std::size_t words() const { return std::size_t{width()} * height() * colours; }
+};
+
+void take_area(const Tile& area, const std::vector<Rgb>& pixels, const Sieve& sieve,
+               std::vector<std::uint32_t>& words) {
+    for (std::uint32_t row = 0; row < area.height; ++row)
+        for (std::uint32_t column = 0; column < area.width; ++column) {
+            const std::uint32_t x = area.x + column - sieve.window.x, y = area.y + row - sieve.window.y;
+            if (x % sieve.step || y % sieve.step) continue;
+            const std::size_t to = (std::size_t{y / sieve.step} * sieve.width() + x / sieve.step) * sieve.colours;
+            for (std::size_t k = 0; k < sieve.colours; ++k)
+                words[to + k] = packed(pixels[(std::size_t{row} * area.width + column) * sieve.colours + k]);
+        }
 }
 
-JsonTree frozen_picture(const Picture& picture, std::size_t most_bytes) {
-    const auto colours = colours_of(picture);
-    std::uint32_t step = 1;
-    const auto part = [&](std::uint32_t side) { return (side + step - 1) / step; };
-    const auto bytes = [&] {
-        return std::size_t{part(picture.width)} * part(picture.height) * colours.size() * 16 / 3;
-    };
-    while (bytes() > most_bytes && step < std::max(picture.width, picture.height)) ++step;
+// With the colours that hello_json() tells of.
+JsonTree frozen_picture(const Film& film, std::size_t most_bytes) {
+    LiveCleaning cleaning(film.format());
+    cleaning.finish(film);
+    Sieve sieve{film.format().work(), film.format().views().size() + cleaning.colours()};
+    const auto bytes = [&] { return sieve.words() * 16 / 3; };
+    while (bytes() > most_bytes && sieve.step < std::max(sieve.window.width, sieve.window.height)) ++sieve.step;
     if (bytes() > most_bytes) throw Error("report", "it has no room for a picture of so many layers");
-    std::vector<std::uint32_t> words;
-    for (std::uint32_t y = 0; y < picture.height; y += step)
-        for (std::uint32_t x = 0; x < picture.width; x += step)
-            for (const auto* colour : colours) words.push_back(packed((*colour)[std::size_t{y} * picture.width + x]));
-    return {{"width", part(picture.width)},
-            {"height", part(picture.height)},
-            {"step", step},
+    std::vector<std::uint32_t> words(sieve.words());
+    for (const Tile& area : film.areas()) take_area(area, cleaning.so_far(film, area), sieve, words);
+    return {{"width", sieve.width()},
+            {"height", sieve.height()},
+            {"step", sieve.step},
             {"pixels", base64(bytes_of(words))}};
 }
 
@@ -88,18 +101,18 @@ void replace_once(std::string& text, std::string_view what, const std::string& b
 
 }  // namespace
 
-std::string report_page(const Watcher& watcher, const Picture& picture, const ReportFacts& facts) {
+std::string report_page(const Watcher& watcher, const Film& film, const ReportFacts& facts) {
     auto history = JsonTree::list();
     for (const auto& state : watcher.history()) history.push_back(noted(state));
-    auto json = noted(watcher.hello());
-    json["state"] = noted(watcher.last_state());
+    auto json = noted(watcher.noted().hello);
+    json["state"] = noted(watcher.noted().last_state);
     json["history"] = std::move(history);
-    json["log"] = watcher.lines();
+    json["log"] = watcher.noted().lines;
     json["facts"] = JsonTree::list();
     for (const auto& [name, value] : facts) json["facts"].push_back({name, value});
     const auto text = [&] { return within_script(sorted_text(json)); };
     const std::size_t taken = watch_page().size() + text().size() + 1000;
-    json["picture"] = frozen_picture(picture, most_report_bytes - std::min(taken, most_report_bytes));
+    json["picture"] = frozen_picture(film, most_report_bytes - std::min(taken, most_report_bytes));
 
     std::string page(watch_page());
     replace_once(page, "<!--frozen-->", "<script type=\"application/json\" id=\"frozen\">" + text() + "</script>");

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/film/picture.hpp"
+#include "core/film/film.hpp"
 #include "tools/pictures/output_file.hpp"
 #include "tools/watch/watcher.hpp"
 
@@ -18,7 +18,8 @@ inline constexpr std::size_t most_report_bytes = 4'900'000;
 /// What stands in its table: what, and how much.
 using ReportFacts = std::vector<std::pair<std::string, std::string>>;
 
-/// The page that shows a run, with what was collected frozen into it. Throws Error when not even a pixel fits.
-std::string report_page(const Watcher& watcher, const Picture& picture, const ReportFacts& facts);
+/// The page that shows a run and its film, with what was collected frozen into it. Throws Error when not even a pixel
+/// fits.
+std::string report_page(const Watcher& watcher, const Film& film, const ReportFacts& facts);
 
 }  // namespace lightnet

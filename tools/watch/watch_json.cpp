@@ -175,16 +175,21 @@ std::string hello_json(const WatchedRun& run) {
                            {"gain", {gain.r, gain.g, gain.b}}});
     }
     const auto levels = least_of_levels();
-    return sorted_text({{"hello",
-                         {{"graph", run.graph.file},
-                          {"output", run.output},
-                          {"picture", {work.x, work.y, work.width, work.height}},
-                          {"samples", run.format.samples},
-                          {"colours", colours},
-                          {"levels", std::vector(levels.begin(), levels.end())},
-                          {"nodes", nodes_json(run)},
-                          {"edited", run.edited},
-                          {"edges", edges_json(run)}}}});
+    JsonTree hello{{"graph", run.graph.file},
+                   {"output", run.output},
+                   {"picture", {work.x, work.y, work.width, work.height}},
+                   {"samples", run.format.samples},
+                   {"levels", std::vector(levels.begin(), levels.end())},
+                   {"nodes", nodes_json(run)},
+                   {"edited", run.edited},
+                   {"edges", edges_json(run)}};
+    if (run.format.halves()) {
+        hello["cleaned"] = run.format.views().size();
+        for (const auto& layer : run.format.layers)
+            colours.push_back({{"name", "clean." + layer}, {"layer", false}, {"fact", false}, {"gain", {1, 1, 1}}});
+    }
+    hello["colours"] = std::move(colours);
+    return sorted_text({{"hello", std::move(hello)}});
 }
 
 std::string state_json(const WatchedState& state, const Graph& graph) {

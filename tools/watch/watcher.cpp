@@ -29,15 +29,19 @@ double thread_time() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+// Of a pixel that is shown.
+std::size_t colours_of(const FilmFormat& format) { return format.views().size() + LiveCleaning(format).colours(); }
+
 }  // namespace
 
 Watcher::Watcher(Options options, const WatchedRun& run)
     : options_(std::move(options)),
       graph_(run.graph),
       output_(run.output),
-      hello_(hello_json(run)),
-      board_(std::make_shared<WatchBoard>(run.format.work(), run.format.views().size())),
-      too_large_(run.format.work().pixels() * run.format.views().size() * sizeof(Rgb) > most_live_bytes),
+      noted_{hello_json(run), {}, {}},
+      board_(std::make_shared<WatchBoard>(run.format.work(), colours_of(run.format))),
+      too_large_(run.format.work().pixels() * colours_of(run.format) * sizeof(Rgb) > most_live_bytes),
+      cleaning_(run.format),
       pixel_pace_(pixel_period, begun_),
       state_pace_(state_period, begun_),
       history_(begun_) {
@@ -60,7 +64,7 @@ Watcher::Watcher(Options options, const WatchedRun& run)
         explain = [explainer](const PixelWish& wish, LiveExplainer::Reply reply) {
             explainer->explain(wish, std::move(reply));
         };
-    WatchStage stage{hello_, board_, take, explain};
+    WatchStage stage{noted_.hello, board_, take, explain};
     server_ = options_.server;
     if (server_) {
         server_->show(std::move(stage));
@@ -74,14 +78,15 @@ Watcher::Watcher(Options options, const WatchedRun& run)
 // The last thing that it has shown stays on a server of others.
 Watcher::~Watcher() {
     if (!server_ || own_server_) return;
-    server_->show({hello_, board_, [](const WatchCommand& command) { command.answer("the picture is finished"); }});
+    server_->show(
+        {noted_.hello, board_, [](const WatchCommand& command) { command.answer("the picture is finished"); }});
 }
 
 std::string Watcher::url() const { return server_ ? server_->url() : std::string(); }
 
 void Watcher::say(const std::string& text) {
     auto line = fmt::format("{:.1f}\t{}", std::chrono::duration<double>(Clock::now() - begun_).count(), text);
-    if (options_.report && lines_.size() < most_reported_lines) lines_.push_back(line);
+    if (options_.report && noted_.lines.size() < most_reported_lines) noted_.lines.push_back(line);
     board_->say(std::move(line));
 }
 
@@ -100,31 +105,31 @@ void Watcher::handed_out(const std::vector<Tile>& tiles) {
 void Watcher::taken(const Tile& tile) {
     const auto flying = std::find(state_.in_flight.begin(), state_.in_flight.end(), tile);
     if (flying != state_.in_flight.end()) state_.in_flight.erase(flying);
-    if (!began_to_show_) return;
+    if (!changed_) return;
     const Tile area{tile.x, tile.y, tile.width, tile.height};
-    if (std::find(changed_.begin(), changed_.end(), area) == changed_.end()) changed_.push_back(area);
+    if (std::find(changed_->begin(), changed_->end(), area) == changed_->end()) changed_->push_back(area);
 }
 
-// Somebody has come: from now on, changes are noted.
+// Somebody has come, so that from now on changes are noted, or all is other than it was.
 void Watcher::take_areas_of(const Film& film) {
-    began_to_show_ = true;
     const auto areas = film.areas();
-    changed_.assign(areas.begin(), areas.end());
+    changed_.emplace(areas.begin(), areas.end());
 }
 
 void Watcher::show_pixels(const Film& film, std::chrono::duration<double> most) {
-    if (!began_to_show_) take_areas_of(film);
+    if (!changed_) take_areas_of(film);
     const auto end = Clock::now() + most;
-    while (!changed_.empty() && Clock::now() < end) {
-        const Tile area = changed_.front();
-        if (!board_->show(area, film.so_far(area))) return;
-        changed_.pop_front();
+    while (!changed_->empty() && Clock::now() < end) {
+        const Tile area = changed_->front();
+        if (!board_->show(area, cleaning_.so_far(film, area))) return;
+        changed_->pop_front();
     }
 }
 
 void Watcher::look(const Film& film) {
     const auto now = Clock::now();
     if (!board_->wanted() || too_large_ || !pixel_pace_.due(now)) return;
+    if (cleaning_.look(film)) take_areas_of(film);
     show_pixels(film, most_pixel_time);
     pixel_pace_.put_off(now);
 }
@@ -137,7 +142,7 @@ void Watcher::look(const Film& film, const Hosts& hosts) {
     const double begun = thread_time();
     look_at_hosts(hosts(), now);
     tell();
-    if (options_.report && history_.due(now)) history_.add(last_state_, now);
+    if (options_.report && history_.due(now)) history_.add(noted_.last_state, now);
     state_pace_.put_off(now, std::chrono::duration<double>((thread_time() - begun) / most_state_share));
 }
 
@@ -150,8 +155,8 @@ void Watcher::phase(const std::string& name) {
 
 bool Watcher::tell() {
     state_.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
-    last_state_ = state_json(state_, graph_);
-    return board_->tell(last_state_);
+    noted_.last_state = state_json(state_, graph_);
+    return board_->tell(noted_.last_state);
 }
 
 void Watcher::look_at_hosts(std::vector<HostState> hosts, Clock::time_point now) {
@@ -171,13 +176,14 @@ void Watcher::finish(const Film& film, const std::string& outcome, ForecastCurve
     state_.forecast = std::move(forecast);
     state_.in_flight.clear();
     state_.doing.clear();
+    if (picture_wanted() && !too_large_ && cleaning_.finish(film)) take_areas_of(film);
     bool told = false;
     const auto end = Clock::now() + 300ms;  // the board is never taken for long
     do {
         if (picture_wanted() && !too_large_) show_pixels(film, 1s);
         told = tell() || told;
         std::this_thread::sleep_for(1ms);
-    } while ((!told || !changed_.empty()) && Clock::now() < end);
+    } while ((!told || (changed_ && !changed_->empty())) && Clock::now() < end);
     if (viewer_ && options_.viewer->stays_here() && outcome == "done")
         viewer_->finish(std::filesystem::absolute(output_).string());
 }

@@ -17,6 +17,7 @@
 #include "tools/preview/tev_preview.hpp"
 #include "tools/preview/watch_board.hpp"
 #include "tools/support/pace.hpp"
+#include "tools/watch/live_cleaning.hpp"
 #include "tools/watch/places_at_work.hpp"
 #include "tools/watch/watch_history.hpp"
 #include "tools/watch/watch_json.hpp"
@@ -80,11 +81,13 @@ public:
 
     /// How many places were at work, on average over the time that they were looked at.
     double at_work() const { return work_.average(); }
-    /// What a report is made from.
-    const std::string& hello() const { return hello_; }
-    const std::string& last_state() const { return last_state_; }
+    /// What a report is made from, with history().
+    struct Noted {
+        std::string hello, last_state;
+        std::vector<std::string> lines;
+    };
+    const Noted& noted() const { return noted_; }
     const std::vector<std::string>& history() const { return history_.states(); }
-    const std::vector<std::string>& lines() const { return lines_; }
 
 private:
     void take_areas_of(const Film& film);
@@ -94,16 +97,17 @@ private:
 
     Options options_;
     const Graph& graph_;
-    std::string output_, hello_, last_state_;
+    std::string output_;
+    Noted noted_;
     WatchedState state_;
     PlacesAtWork work_;
     const Clock::time_point begun_ = Clock::now();
     std::shared_ptr<WatchBoard> board_;
-    bool too_large_ = false, began_to_show_ = false;
-    std::deque<Tile> changed_;  // areas
+    bool too_large_ = false;
+    LiveCleaning cleaning_;
+    std::optional<std::deque<Tile>> changed_;  // areas; none: nobody has come yet
     Pace pixel_pace_, state_pace_;
     WatchHistory history_;
-    std::vector<std::string> lines_;
     std::mutex commands_mutex_;
     std::vector<WatchCommand> commands_;
     std::unique_ptr<TevPreview> viewer_;

@@ -8,6 +8,7 @@ export interface View {
     colours: number[] | null; // null: the beauty
     gains: Rgb[]; // of the layers
     stops: number;
+    cleaned: number; // the part of the width, from the left, from which on layers are without noise; 1: nowhere
 }
 
 export class Picture {
@@ -16,6 +17,7 @@ export class Picture {
     readonly colours: number;
     readonly layers: number[];
     readonly facts: boolean[];
+    readonly cleaned: number; // the first colour of layers without noise
     data: Float32Array; // pixel by pixel, colour by colour
     kept: Float32Array | null = null; // an earlier one, to be compared with
     wipe = 0; // the part of the width, from the left, that shows the one that was kept
@@ -27,6 +29,7 @@ export class Picture {
         this.height = height;
         this.colours = hello.colours.length;
         this.layers = hello.colours.flatMap((colour, k) => (colour.layer ? [k] : []));
+        this.cleaned = hello.cleaned ?? 0;
         this.facts = hello.colours.map((colour) => colour.fact);
         this.data = new Float32Array(width * height * this.colours * 3);
         this.levels = Float32Array.from([...hello.levels, Infinity]);
@@ -73,11 +76,13 @@ export class Picture {
     at(pixel: number, view: View): Rgb {
         const { colours } = this;
         const data = this.kept && pixel % this.width < this.wipe * this.width ? this.kept : this.data;
+        const cleaned = pixel % this.width >= view.cleaned * this.width;
         const sum: Rgb = [0, 0, 0];
         const parts = view.colours ?? this.layers;
         for (let c = 0; c < 3; ++c) {
             for (let i = 0; i < parts.length; ++i) {
-                const value = data[(pixel * colours + parts[i]) * 3 + c];
+                const colour = cleaned && parts[i] < this.layers.length ? this.cleaned + parts[i] : parts[i];
+                const value = data[(pixel * colours + colour) * 3 + c];
                 const part = view.colours ? value : Math.fround(Math.fround(view.gains[i][c]) * value);
                 sum[c] = i === 0 ? part : Math.fround(sum[c] + part);
             }
@@ -107,7 +112,7 @@ export class Picture {
         const step = Math.max(1, Math.ceil(Math.max(this.width / 112, this.height / 84)));
         const [width, height] = [Math.floor(this.width / step), Math.floor(this.height / step)];
         if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-        const view: View = { colours: gains ? null : colours, gains: gains ?? [], stops: 0 };
+        const view: View = { colours: gains ? null : colours, gains: gains ?? [], stops: 0, cleaned: 1 };
         const values = new Float32Array(width * height * 3);
         for (let y = 0, to = 0; y < height; ++y)
             for (let x = 0; x < width; ++x, to += 3)

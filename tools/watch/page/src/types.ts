@@ -23,6 +23,7 @@ export interface Hello {
     picture: [number, number, number, number]; // x, y, width, height
     samples: number;
     colours: Colour[];
+    cleaned?: number; // the first of the colours that are layers without noise
     levels: number[]; // what a channel must be at least for each of 1 … 255
     nodes: GraphNode[];
     edges: [number, number][]; // who asks whom
