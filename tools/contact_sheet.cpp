@@ -1,8 +1,10 @@
-// lightnet-contact-sheet SHEET.png PICTURE PICTURE...: pairs of pictures beside one another, one pair below the other.
+// lightnet-contact-sheet SHEET.png [--pairs N] PICTURE PICTURE...: pairs of pictures beside one another, one pair below
+// the other.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -13,11 +15,13 @@
 namespace lightnet {
 namespace {
 
-constexpr std::uint32_t cell_width = 240, cell_height = 180, margin = 4, pairs_in_a_row = 3;
+constexpr std::uint32_t cell_width = 240, cell_height = 180, margin = 4;
+constexpr std::size_t usual_pairs_in_a_row = 3;
 constexpr const char* usage =
-    "usage: lightnet-contact-sheet SHEET.png PICTURE PICTURE...\n"
-    "Lays pairs of pictures (EXR, HDR, PNG, JPEG) beside one another, each made as small as its cell. '-' is no "
-    "picture.\n";
+    "usage: lightnet-contact-sheet SHEET.png [--pairs N] PICTURE PICTURE...\n"
+    "Lays pairs of pictures (EXR, HDR, PNG, JPEG) beside one another, N in a row (3), each made as small as its cell. "
+    "'-' "
+    "is no picture.\n";
 
 /// Where a picture lies in its cell, and how many of its pixels go into one of the sheet's.
 struct Fit {
@@ -55,7 +59,7 @@ void lay(Picture& sheet, std::uint32_t left, std::uint32_t top, const Image& ima
             sheet.beauty[std::size_t{top + y} * sheet.width + left + x] = mean(image, place, x, y);
 }
 
-Picture sheet_of(const std::vector<std::string>& names) {
+Picture sheet_of(const std::vector<std::string>& names, std::uint32_t pairs_in_a_row) {
     const auto pairs = std::uint32_t((names.size() + 1) / 2), columns = std::min(pairs, pairs_in_a_row);
     const std::uint32_t rows = (pairs + columns - 1) / columns, pair_width = 2 * cell_width + 3 * margin;
     Picture sheet{columns * pair_width + margin, rows * (cell_height + margin) + margin, {}, {}};
@@ -74,11 +78,17 @@ Picture sheet_of(const std::vector<std::string>& names) {
 }  // namespace lightnet
 
 int main(int argc, char** argv) try {
-    if (argc < 3) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    std::size_t pairs = lightnet::usual_pairs_in_a_row;
+    if (words.size() > 2 && words[1] == "--pairs") {
+        pairs = std::strtoul(words[2].c_str(), nullptr, 10);
+        words.erase(words.begin() + 1, words.begin() + 3);
+    }
+    if (words.size() < 2 || pairs < 1 || pairs > 100) {
         std::fputs(lightnet::usage, stderr);
         return 2;
     }
-    lightnet::write_png(argv[1], lightnet::sheet_of({argv + 2, argv + argc}));
+    lightnet::write_png(words[0], lightnet::sheet_of({words.begin() + 1, words.end()}, std::uint32_t(pairs)));
     return 0;
 } catch (const std::exception& error) {
     fmt::print(stderr, "lightnet-contact-sheet: {}\n", error.what());
