@@ -117,6 +117,32 @@ TEST(Rounds, ReachTheirThreshold) {
     EXPECT_LT(std::sqrt(sum), 1.2 * 0.04);
 }
 
+// What is expected is a mean over its surroundings, some of which black ones have: they are not held for it.
+TEST(Rounds, EndBlackCellsBesideNoisyOnes) {
+    const FilmFormat format{64, 16, {"direct"}, 640, {}, {0.015f, least}, {}, {cleaning::half_of("direct")}};
+    Film film(format);
+    std::mt19937 random(1);
+    const auto tiles = tiles_of(format, 16);
+    for (std::deque<Tile> wanted(tiles.begin(), tiles.end()); !wanted.empty(); wanted.pop_front()) {
+        const Tile tile = wanted.front();
+        std::vector<Rgb> pixels;
+        for (std::uint32_t i = 0; i < tile.pixels(); ++i) {
+            const bool black = tile.x + i % tile.width >= 32;
+            const auto half = [&] { return black ? 0 : float(tile.samples) * float(random() >> 8) * 0x1p-25f; };
+            const float first = half(), second = half();
+            pixels.push_back(Rgb{1, 1, 1} * (first + second));
+            pixels.push_back(Rgb{1, 1, 1} * second);
+        }
+        film.add(tile, pixels);
+        for (const Tile& more : end_round_if_over(film)) wanted.push_back(more);
+        for (const Tile& more : film.more(tile)) wanted.push_back(more);
+    }
+    const auto samples = film.picture().samples;
+    EXPECT_GE(samples[0], 2 * least);
+    EXPECT_LE(samples[40], samples[0]);
+    EXPECT_EQ(samples[63], least);
+}
+
 TEST(Rounds, NeedNoMoreThanAllSamples) {
     const Picture picture = finished(format_of(1e-7f, 100)).picture();
     for (const float samples : picture.samples) EXPECT_EQ(samples, 100);

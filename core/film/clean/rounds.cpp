@@ -9,12 +9,12 @@
 namespace lightnet {
 namespace {
 
-// Of a pixel that is off by `error`, in parts of the root of value² + 0.01.
+// Of a pixel that is off by `error`, in parts of the root of value² + 0.01: what is darker than 0.1 is not known
+// better.
 double noise_of(const Rgb& value, double error, double scale) {
-    double deviation = 0;
-    for (const double channel : {value.r, value.g, value.b})
-        deviation += error * std::sqrt(channel * channel + 0.01) * scale;
-    return deviation / scale_of_noise((double{value.r} + value.g + value.b) * scale);
+    double sum = 0;
+    for (const double channel : {value.r, value.g, value.b}) sum += std::sqrt(channel * channel + 0.01) * scale;
+    return error * sum / scale_of_noise(sum);
 }
 
 // Of each pixel of a picture after cleaning.
