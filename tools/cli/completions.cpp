@@ -4,7 +4,7 @@
 #include <cctype>
 #include <sstream>
 
-#include "tools/support/program_text.hpp"
+#include "tools/cli/program_text.hpp"
 
 namespace lightnet {
 namespace {

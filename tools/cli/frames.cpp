@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "tools/support/command_line.hpp"
+#include "tools/cli/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/base/spare_threads.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/readers/read_scene.hpp"
-#include "tools/support/command_line.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {

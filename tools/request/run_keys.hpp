@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/network/graph/hosts.hpp"
+#include "transport/keys/allow_list.hpp"
 #include "transport/keys/key.hpp"
-#include "transport/launcher/cluster.hpp"
 #include "transport/start/ssh_workers.hpp"
 
 namespace lightnet {

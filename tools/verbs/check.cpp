@@ -6,10 +6,10 @@
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
 #include "core/run/assembly/load_scene.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {

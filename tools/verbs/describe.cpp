@@ -7,9 +7,9 @@
 
 #include "core/network/graph/check_params.hpp"
 #include "core/network/graph/describe.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/schema_text.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {

@@ -13,13 +13,13 @@
 #include "core/network/graph/dot.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/lay_out.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/forecast/forecast_hosts.hpp"
 #include "tools/pictures/node_pictures.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {

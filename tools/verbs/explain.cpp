@@ -11,6 +11,7 @@
 #include "core/base/own_files.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/film/png.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/explain/explanation_json.hpp"
 #include "tools/explain/explanation_text.hpp"
@@ -18,7 +19,6 @@
 #include "tools/explain/path_picture.hpp"
 #include "tools/explain/pixel_account.hpp"
 #include "tools/pictures/remix.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/run_report.hpp"
 

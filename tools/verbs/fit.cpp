@@ -8,11 +8,11 @@
 #include "core/base/error.hpp"
 #include "core/film/compare.hpp"
 #include "core/film/fit.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/pictures/compare.hpp"
 #include "tools/pictures/remix.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {

@@ -7,10 +7,10 @@
 
 #include "core/base/build_info.hpp"
 #include "tools/cli/asked_hosts.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/hosts/host_json.hpp"
 #include "tools/hosts/host_table.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {

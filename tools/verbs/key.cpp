@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/base/this_machine.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 #include "transport/keys/key_file.hpp"
 

@@ -12,6 +12,7 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
@@ -19,7 +20,6 @@
 #include "tools/cli/request_of.hpp"
 #include "tools/race/lap.hpp"
 #include "tools/race/race_text.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {

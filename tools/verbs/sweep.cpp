@@ -14,6 +14,7 @@
 #include "core/base/between_commas.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
+#include "tools/cli/command_line.hpp"
 #include "tools/cli/frames.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
@@ -21,7 +22,6 @@
 #include "tools/cli/request_of.hpp"
 #include "tools/race/lap.hpp"
 #include "tools/race/race_text.hpp"
-#include "tools/support/command_line.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {

@@ -69,4 +69,10 @@ private:
     std::chrono::steady_clock::time_point looked_{};
 };
 
+/// Whose hosts may join a run.
+struct JoinKeys {
+    std::optional<AllowFile> file;  // may change while the run lasts
+    AllowList more;                 // that the run was told of otherwise
+};
+
 }  // namespace lightnet

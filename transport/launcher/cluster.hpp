@@ -34,12 +34,6 @@ struct HostState {
     std::uint64_t peak_memory = 0;  // of its process, in this run; bytes
 };
 
-/// Whose hosts may join a run.
-struct JoinKeys {
-    std::optional<AllowFile> file;  // may change while the run lasts
-    AllowList more;                 // that the run was told of otherwise
-};
-
 /// Brings hosts into the run, keeps their leases, and carries the master's asks to them, and those that hosts can't
 /// send to each other. Hosts are called, or dial in, or are places of this process. A host that is lost, stops or comes
 /// late changes what is proposed: the new plan comes out of receive(), and goes to hosts when it is adopted. Used by

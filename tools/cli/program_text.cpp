@@ -1,4 +1,4 @@
-#include "tools/support/program_text.hpp"
+#include "tools/cli/program_text.hpp"
 
 #include <CLI/CLI.hpp>
 
