@@ -97,8 +97,9 @@ TEST(PbrtCamera, LooksAlongZWithXToTheRight) {
 
 // at 100000 a float step is 1/128: the eye stands .046875 high, not .05, and looks at the same point from there
 TEST(PbrtCamera, LooksAtItsTargetFromWhereFloatsPutIt) {
-    const auto camera = read_text("LookAt 100000 100000.05 100006  100000 100000 99999.95  0 1 0 Camera \"perspective\" "
-                                  "WorldBegin")
+    const auto camera = read_text(
+                            "LookAt 100000 100000.05 100006  100000 100000 99999.95  0 1 0 Camera \"perspective\" "
+                            "WorldBegin")
                             .camera;
     EXPECT_EQ(transform_point(camera.to_world, {0, 0, 0}), (Vec3{100000, 100000.046875f, 100006}));
     const Vec3 ahead = transform_direction(camera.to_world, {0, 0, 1});

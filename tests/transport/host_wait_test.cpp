@@ -12,7 +12,7 @@ using Verdict = HostWait::Verdict;
 class HostWaitTest : public ::testing::Test {
 protected:
     const HostWait::Time begun{};
-    Cluster::Patience patience{5s, 5s, 5s, 600s};
+    HostPatience patience{5s};
     HostWait wait_for_hosts{patience, begun};
     HostWait::Standing standing;
 };
@@ -86,6 +86,38 @@ TEST_F(HostWaitTest, SpeaksEveryFewSecondsAndThenLessOften) {
     EXPECT_GE(words, 4);
     for (auto second = 20s; second < 3600s; second += 1s) words += wait_for_hosts.should_speak(begun + second);
     EXPECT_LT(words, 100);
+}
+
+class ExpectedHostsTest : public ::testing::Test {
+protected:
+    ExpectedHostsTest() { hosts.begin(HostPatience{5s}, begun); }
+    const ExpectedHosts::Time begun{};
+    ExpectedHosts hosts;
+    HostWait::Standing standing;
+};
+
+TEST_F(ExpectedHostsTest, MayComeWhileTheyBuildOrHaveNotAnsweredForLong) {
+    EXPECT_FALSE(hosts.may_come(standing, begun));
+    standing.pending = true;
+    EXPECT_TRUE(hosts.may_come(standing, begun + 1h));
+    standing.pending = false, standing.absent = true;
+    EXPECT_TRUE(hosts.may_come(standing, begun + 9s));
+    EXPECT_FALSE(hosts.may_come(standing, begun + 10s));
+}
+
+TEST_F(ExpectedHostsTest, EndTheRunWithTheLastOnesReasonWhenNoneComes) {
+    standing.absent = true;
+    hosts.wait_for_others("there is not enough memory");
+    EXPECT_NO_THROW(hosts.look(standing, begun + 9s));
+    EXPECT_THROW(hosts.look(standing, begun + 10s), Error);
+}
+
+TEST_F(ExpectedHostsTest, AreNoMoreWaitedForWhenOneIsReady) {
+    hosts.wait_for_others("there is not enough memory");
+    standing.ready = true;
+    hosts.look(standing, begun + 1h);
+    standing.ready = false;
+    EXPECT_NO_THROW(hosts.look(standing, begun + 2h)) << "its loss is another matter";
 }
 
 }  // namespace

@@ -133,7 +133,8 @@ void Crew::begin_next(const RunRequest& request, Cluster::Options cluster, std::
 }
 
 void Crew::gather(const std::atomic<bool>& cancelled, std::optional<std::chrono::milliseconds> most) {
-    Cluster::Patience patience{host_patience, host_patience};
+    HostPatience patience;
+    patience.absent = patience.nobody = host_patience;
     if (some_missing_) patience.absent = known_missing;
     if (!request_->listen.empty()) patience.nobody = std::max<std::chrono::milliseconds>(request_->wait, host_patience);
     patience.busy = request_->busy_wait;

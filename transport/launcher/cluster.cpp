@@ -15,10 +15,10 @@ using State = HostLink::State;
 Cluster::Cluster(Options options) : links_(std::make_unique<Links>(std::move(options))) {}
 Cluster::~Cluster() = default;
 
-void Cluster::gather(Patience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around) {
+void Cluster::gather(HostPatience patience, const std::atomic<bool>& cancelled,
+                     const std::function<void()>& look_around) {
     const auto begun = Clock::now();
-    links_->hold_until = begun + patience.absent;
-    links_->expect_until = begun + 2 * patience.absent;
+    links_->expected.begin(patience, begun);
     HostWait host_wait(patience, begun);
     while (!cancelled) {
         wait(std::chrono::milliseconds(20));
@@ -153,7 +153,7 @@ bool Cluster::take_out(const std::string& host, const std::string& why) {
     return out;
 }
 
-bool Cluster::expects_hosts() const { return links_->expects_hosts(); }
+bool Cluster::expects_hosts() const { return links_->expected.may_come(links_->standing(), Clock::now()); }
 
 bool Cluster::bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) {
     if (packet::goes_along(bytes)) return true;

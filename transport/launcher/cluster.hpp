@@ -18,6 +18,7 @@
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/figures.hpp"
 #include "transport/keys/allow_list.hpp"
+#include "transport/launcher/host_patience.hpp"
 #include "transport/wire/machine.hpp"
 
 namespace lightnet {
@@ -65,22 +66,11 @@ public:
     using HostKey = std::optional<PublicKey>;
     ~Cluster() override;
 
-    /// How long to wait for hosts before the work begins.
-    struct Patience {
-        std::chrono::milliseconds absent{5000};           // with hosts that do not answer
-        std::chrono::milliseconds nobody{5000};           // when none is there at all
-        std::chrono::milliseconds slow{5000};             // with one that is still not ready when another is, at least
-        std::chrono::milliseconds build{600000};          // when some are there, but none gets ready
-        std::optional<std::chrono::milliseconds> busy{};  // when all serve other runs; none: as long as it takes
-        std::optional<std::chrono::milliseconds> most{};  // whatever they do
-    };
     /// Returns when every host is ready, refused, or has been absent or slow for too long; at least one must be ready
     /// by then, and others may still join later. Says from time to time what it waits for. Calls `look_around` several
     /// times a second. Throws NoWorker when none is ready by then, Error when the job can't be served.
-    void gather(Patience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around);
-    void gather(std::chrono::milliseconds patience, const std::atomic<bool>& cancelled) {
-        gather(Patience{patience, patience, patience}, cancelled, [] {});
-    }
+    void gather(
+        HostPatience patience, const std::atomic<bool>& cancelled, const std::function<void()>& look_around = [] {});
     /// What is proposed now.
     const Plan& plan() const;
     /// Calls another host.

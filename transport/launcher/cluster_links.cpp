@@ -106,7 +106,7 @@ void Cluster::Links::look() {
     const auto now = Clock::now();
     take_joiners(now);
     const auto expected_plan = [&]() -> std::optional<std::string> {
-        if (now < hold_until && absent()) return std::nullopt;
+        if (expected.hold(now) && absent()) return std::nullopt;
         return to_json(plan_for(offers(false)));
     };
     const HostLink::Handlers handlers{[&](Message message) { arrived.push_back(std::move(message)); },
@@ -124,22 +124,17 @@ void Cluster::Links::look() {
         for (const auto& failure : link->take_failures())
             failure.lie ? doubt(failure, link->name()) : void(take_out(failure.host, failure.why));
     tell_changes();
-    throw_if_nobody_came();
+    if (expected.waited_for()) expected.look(standing(), now);
 }
 
 bool Cluster::Links::take_out(const std::string& name, const std::string& why) {
     auto* link = find(name);
     if (!link) return false;
     if (link->state() == State::refused) return true;
-    const bool others = others_are_ready(name);
-    if (!(others || expects_hosts()) || !link->take_out(why)) return false;
-    if (!others) last_out = Failure{why, name};
+    if (others_are_ready(name)) return link->take_out(why);
+    if (!expected.may_come(standing(), Clock::now()) || !link->take_out(why)) return false;
+    expected.wait_for_others(why);
     return true;
-}
-
-// Else the run would wait for ever, where it is the run's own trouble.
-void Cluster::Links::throw_if_nobody_came() const {
-    if (last_out && offers(true).empty() && !expects_hosts()) throw Error(last_out->why);
 }
 
 bool Cluster::Links::others_are_ready(const std::string& name) const {
@@ -287,11 +282,6 @@ bool Cluster::Links::absent() const {
                        [&](const auto& name) { return !find(name); }) ||
            std::any_of(links.begin(), links.end(),
                        [](const auto& link) { return link->state() == State::calling && !link->unknown(); });
-}
-
-bool Cluster::Links::expects_hosts() const {
-    return std::any_of(links.begin(), links.end(), [](const auto& link) { return link->pending(); }) ||
-           (Clock::now() < expect_until && absent());
 }
 
 HostWait::Standing Cluster::Links::standing() const {

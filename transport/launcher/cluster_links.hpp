@@ -44,12 +44,10 @@ struct Cluster::Links {
     std::set<std::string> unknown;      // said already
     std::set<std::string> turned_down;  // who wanted to join
     std::optional<Failure> lie;         // that was found first
-    std::optional<Failure> last_out;    // of the host that was taken out as the last one, as others were expected
     bool watched = false;
     Counters counters, ended;
     Relays relays{counters, relay_handlers()};
-    Clock::time_point hold_until{};  // nobody begins before all are greeted: places make their nodes by the first plan
-    Clock::time_point expect_until{};  // hosts that do not answer
+    ExpectedHosts expected;  // that are not ready yet
 
     explicit Links(Options given);
 
@@ -76,7 +74,6 @@ struct Cluster::Links {
 
     // The last one stays, unless others are expected: its failures are the run's.
     bool take_out(const std::string& name, const std::string& why);
-    void throw_if_nobody_came() const;
     bool others_are_ready(const std::string& name) const;
 
     // `accuser`: the host that says so; "": places of this process, or the launcher itself, which are believed.
@@ -98,9 +95,6 @@ struct Cluster::Links {
 
     // Somebody who is to be there from the beginning is not.
     bool absent() const;
-    // Somebody who is not ready yet may come.
-    bool expects_hosts() const;
-
     HostWait::Standing standing() const;
 };
 

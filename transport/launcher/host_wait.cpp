@@ -35,6 +35,11 @@ bool HostWait::should_speak(Time now) {
     return true;
 }
 
+void ExpectedHosts::look(const HostWait::Standing& standing, Time now) {
+    if (why_ && !standing.ready && !may_come(standing, now)) throw Error(*why_);
+    if (standing.ready) why_.reset();
+}
+
 void throw_if_broken(const std::vector<std::unique_ptr<HostLink>>& links, bool nobody_left) {
     std::map<std::string, const HostLink*> reasons;
     for (const auto& link : links) {

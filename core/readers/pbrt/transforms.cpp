@@ -44,8 +44,8 @@ std::optional<Matrix> rotation(double degrees, double x, double y, double z) {
     return r;
 }
 
-// pbrt's camera space is left-handed: x to the right of the image, y up, z into it. Its numbers are floats: far from the
-// origin an eye between two of them would look past what stands there.
+// pbrt's camera space is left-handed: x to the right of the image, y up, z into it. Its numbers are floats: far from
+// the origin an eye between two of them would look past what stands there.
 std::optional<Matrix> look_at(std::span<const double, 9> given) {
     std::array<double, 9> n{};
     std::ranges::transform(given, n.begin(), [](double number) { return double{static_cast<float>(number)}; });

@@ -18,8 +18,7 @@ Coordinator::Coordinator(Options options, Carrier& carrier)
       carrier_(carrier),
       calls_(*options_.graph, options_.made_from, options_.cache, renewed_nodes(*options_.graph, *options_.registry)),
       order_(preparing_nodes(*options_.graph, *options_.registry)),
-      stages_(stages_of(order_, *options_.graph, *options_.registry)),
-      renewed_(renewed_nodes(*options_.graph, *options_.registry)) {
+      stages_(stages_of(order_, *options_.graph, *options_.registry)) {
     const auto& nodes = options_.graph->nodes;
     if (std::any_of(nodes.begin(), nodes.end(),
                     [&](const Node& node) { return options_.registry->find(node.kind)->run.locks; }))

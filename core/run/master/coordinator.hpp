@@ -98,7 +98,7 @@ private:
         Step step;
         ShardDealer::CopyId shards = 0;  // as they were dealt out
     };
-    bool is_renewed(std::size_t position) const { return renewed_[order_[position]]; }
+    bool is_renewed(std::size_t position) const { return calls_.is_renewed(order_[position]); }
     std::vector<std::size_t> nodes_at(std::size_t position) const;
     std::vector<NodeCopy> copies(std::size_t position) const;
     bool is_there(const NodeCopy& copy, std::size_t position) const;
@@ -139,7 +139,6 @@ private:
     ServiceCalls calls_;
     std::vector<std::size_t> order_;  // nodes that prepare; what stands for their sectors is found by nodes_at()
     std::vector<std::size_t> stages_;
-    std::vector<bool> renewed_;  // by node
     std::uint32_t pass_ = 0;
     std::optional<LockClient> locks_;  // none: nobody in the graph locks
     Plan proposal_, in_force_;

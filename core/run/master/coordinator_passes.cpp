@@ -15,7 +15,7 @@ void Coordinator::begin_pass(std::uint32_t pass) {
     std::erase_if(sent_, [this](const auto& sent) {
         return sent.second.step.kind < Step::Kind::attend && is_renewed(sent.second.position);
     });
-    std::erase_if(followers_, [this](const auto& follower) { return renewed_[follower.first.node]; });
+    std::erase_if(followers_, [this](const auto& follower) { return calls_.is_renewed(follower.first.node); });
     for (std::size_t position = first; position < order_.size(); ++position)
         if (is_renewed(position)) calls_.forget(order_[position]);
     known_prepared_.clear();

@@ -116,6 +116,8 @@ public:
     Bytes result(std::size_t node, std::uint32_t number);
     /// Which part of a call's result a node gets.
     std::uint32_t part_of(std::size_t node, const ServiceCall& call) const;
+    /// Does the node learn anew for each pass?
+    bool is_renewed(std::size_t node) const { return node < renewed_.size() && renewed_[node]; }
     /// The node will make other calls, for another pass.
     void forget(std::size_t node);
     /// Keeps its result for later runs.
@@ -132,9 +134,7 @@ public:
     std::vector<std::pair<std::uint32_t, ServiceCall*>> dealt_out(std::size_t node);
 
 private:
-    ResultCache* cache_for(std::size_t whole) const {
-        return whole < renewed_.size() && renewed_[whole] ? nullptr : cache_;
-    }
+    ResultCache* cache_for(std::size_t whole) const { return is_renewed(whole) ? nullptr : cache_; }
     Hash recipe_of(std::size_t whole, std::uint32_t number, const ServiceCall& call, std::uint32_t part) const;
 
     const Graph& graph_;
