@@ -1,5 +1,5 @@
 // Manual pages and completions say all that the command line takes.
-#include "tools/cli/program_text.hpp"
+#include "tools/words/program_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

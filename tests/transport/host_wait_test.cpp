@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/error.hpp"
+
 namespace lightnet::host_wait_test {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <sstream>
 
-#include "tools/cli/program_text.hpp"
+#include "tools/words/program_text.hpp"
 
 namespace lightnet {
 namespace {

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "tools/cli/command_line.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,8 +12,8 @@
 #include "core/base/spare_threads.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/readers/read_scene.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

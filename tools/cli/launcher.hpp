@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "core/network/graph/kind.hpp"
-#include "tools/cli/command_line.hpp"
-#include "tools/cli/program_text.hpp"
 #include "tools/cli/settings.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/request/run_request.hpp"
 #include "tools/request/sequence.hpp"
 #include "tools/request/session.hpp"
+#include "tools/words/command_line.hpp"
+#include "tools/words/program_text.hpp"
 
 namespace lightnet {
 

@@ -12,9 +12,9 @@
 
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/trouble_options.hpp"
 #include "tools/preview/tev_packets.hpp"
+#include "tools/words/command_line.hpp"
 #include "transport/wire/loopback.hpp"
 
 namespace lightnet {

@@ -11,8 +11,8 @@
 #include "core/base/suggestion.hpp"
 #include "core/film/ocio.hpp"
 #include "core/network/graph/graph_film.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/options.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lua/settings.hpp"
-#include "tools/cli/program_text.hpp"
+#include "tools/words/program_text.hpp"
 
 namespace lightnet {
 

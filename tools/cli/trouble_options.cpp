@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/cli/command_line.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

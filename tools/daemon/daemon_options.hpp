@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "tools/cli/command_line.hpp"
-#include "tools/cli/program_text.hpp"
+#include "tools/words/command_line.hpp"
+#include "tools/words/program_text.hpp"
 #include "transport/daemon/host.hpp"
 
 namespace lightnet {

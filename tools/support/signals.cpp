@@ -11,18 +11,18 @@ namespace lightnet {
 namespace {
 
 // A handler can reach nothing else.
-Signals signals;
+Signals caught;
 std::atomic<bool> only_warned{false};  // by Slurm, which sends another signal later
 
-void note_time() { signals.came = std::chrono::steady_clock::now().time_since_epoch().count(); }
+void note_time() { caught.came = std::chrono::steady_clock::now().time_since_epoch().count(); }
 
 void on_signal(int signal) {
     const bool warns = signal == SIGUSR1;
-    const bool again = signals.any.exchange(true) && !(!warns && only_warned.exchange(false));
+    const bool again = caught.any.exchange(true) && !(!warns && only_warned.exchange(false));
     if (warns && !again) only_warned = true;
     if (again && !warns && signal != SIGHUP) _exit(130);
     if (!again) note_time();
-    (signal == SIGINT ? signals.interrupted : signals.terminated) = true;
+    (signal == SIGINT ? caught.interrupted : caught.terminated) = true;
 }
 
 int code_at_first = 0;
@@ -48,8 +48,8 @@ void take(std::initializer_list<int> which, void (*handler)(int)) {
 }  // namespace
 
 void ask_to_stop() {
-    signals.terminated = true;
-    if (!signals.any.exchange(true)) note_time();
+    caught.terminated = true;
+    if (!caught.any.exchange(true)) note_time();
 }
 
 std::chrono::duration<double> time_to_end(const Signals& told) {
@@ -69,7 +69,7 @@ const Signals& watch_signals() {
     take({SIGINT, SIGTERM, SIGHUP, SIGUSR1}, on_signal);
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error like a full disk
-    return signals;
+    return caught;
 }
 
 }  // namespace lightnet

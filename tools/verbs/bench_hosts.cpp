@@ -16,13 +16,13 @@
 #include "core/base/json.hpp"
 #include "core/base/own_files.hpp"
 #include "core/base/plain_file.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/request_of.hpp"
 #include "tools/cli/trouble_options.hpp"
 #include "tools/session/delivery.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

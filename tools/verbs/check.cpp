@@ -6,11 +6,11 @@
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
 #include "core/run/assembly/load_scene.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -11,13 +11,13 @@
 #include "core/base/own_files.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/pictures/clean.hpp"
 #include "tools/pictures/output_file.hpp"
 #include "tools/pictures/picture_lock.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "core/network/graph/check_params.hpp"
 #include "core/network/graph/describe.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/schema_text.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "core/base/build_info.hpp"
 #include "tools/cli/asked_hosts.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/hosts/doctor.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -13,7 +13,6 @@
 #include "core/network/graph/dot.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/lay_out.hpp"
 #include "tools/cli/loading.hpp"
@@ -21,6 +20,7 @@
 #include "tools/forecast/forecast_hosts.hpp"
 #include "tools/pictures/node_pictures.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

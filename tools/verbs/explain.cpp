@@ -11,7 +11,6 @@
 #include "core/base/own_files.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/film/png.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/explain/explanation_json.hpp"
 #include "tools/explain/explanation_text.hpp"
@@ -21,6 +20,7 @@
 #include "tools/pictures/remix.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/run_report.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,12 +12,12 @@
 #include "core/base/frame_name.hpp"
 #include "core/base/own_files.hpp"
 #include "core/base/temporary_folder.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/frames.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/pictures/film_strip.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

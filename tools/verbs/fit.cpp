@@ -8,12 +8,12 @@
 #include "core/base/error.hpp"
 #include "core/film/compare.hpp"
 #include "core/film/fit.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/pictures/compare.hpp"
 #include "tools/pictures/remix.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "core/base/build_info.hpp"
 #include "tools/cli/asked_hosts.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/hosts/host_json.hpp"
 #include "tools/hosts/host_table.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

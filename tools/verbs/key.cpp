@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/base/this_machine.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 #include "transport/keys/key_file.hpp"
 
 namespace lightnet {

@@ -10,12 +10,12 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/describe.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
-#include "tools/cli/program_text.hpp"
 #include "tools/cli/schema_text.hpp"
 #include "tools/daemon/daemon_options.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
+#include "tools/words/program_text.hpp"
 
 namespace lightnet {
 namespace {

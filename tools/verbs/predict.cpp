@@ -10,7 +10,6 @@
 #include "core/base/error.hpp"
 #include "core/base/in_quotes.hpp"
 #include "core/network/graph/check_hosts.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/forecast/forecast_curve.hpp"
@@ -18,6 +17,7 @@
 #include "tools/forecast/forecast_text.hpp"
 #include "tools/forecast/recorded_run.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -12,7 +12,6 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
@@ -21,6 +20,7 @@
 #include "tools/race/lap.hpp"
 #include "tools/race/race_text.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -6,11 +6,11 @@
 #include "core/base/own_files.hpp"
 #include "core/film/gains.hpp"
 #include "core/film/npz.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/pictures/remix.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

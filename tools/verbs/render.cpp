@@ -12,13 +12,13 @@
 #include "core/base/frame_name.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/run/assembly/load_scene.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/render.hpp"
 #include "tools/cli/request_of.hpp"
 #include "tools/cli/sequence_of.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,7 +7,6 @@
 #include "core/base/frame_name.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/value.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/frames.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/lay_out.hpp"
@@ -16,6 +15,7 @@
 #include "tools/cli/overrides.hpp"
 #include "tools/cli/request_of.hpp"
 #include "tools/cli/sequence_of.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -18,12 +18,12 @@
 #include "core/run/assembly/fingerprint.hpp"
 #include "core/scene/data/lamp_names.hpp"
 #include "core/scene/scene.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/render.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/pace.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -10,11 +10,11 @@
 #include "core/base/error.hpp"
 #include "core/base/frame_name.hpp"
 #include "lua/graph_reader.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/request_of.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -14,7 +14,6 @@
 #include "core/base/between_commas.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/frames.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/loading.hpp"
@@ -23,6 +22,7 @@
 #include "tools/race/lap.hpp"
 #include "tools/race/race_text.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

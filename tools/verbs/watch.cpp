@@ -12,12 +12,12 @@
 #include "core/base/error.hpp"
 #include "core/base/json_tree.hpp"
 #include "core/base/plain_file.hpp"
-#include "tools/cli/command_line.hpp"
 #include "tools/cli/launcher.hpp"
 #include "tools/http/live_line.hpp"
 #include "tools/http/watch_rules.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/watch/run_table.hpp"
+#include "tools/words/command_line.hpp"
 
 namespace lightnet {
 namespace {

@@ -1,4 +1,4 @@
-// How long a run waits for hosts before its work begins.
+// The patience of a run with hosts that are not ready when it begins.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@ namespace lightnet {
 /// A value.
 struct HostPatience {
     HostPatience() = default;
-    /// The same with whoever is not there.
+    /// As patient with hosts of all three kinds.
     template <class Count, class Unit>
     HostPatience(std::chrono::duration<Count, Unit> all) : absent(all), nobody(all), slow(all) {}
 

@@ -1,4 +1,4 @@
-#include "tools/cli/program_text.hpp"
+#include "tools/words/program_text.hpp"
 
 #include <CLI/CLI.hpp>
 

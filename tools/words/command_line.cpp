@@ -1,4 +1,4 @@
-#include "tools/cli/command_line.hpp"
+#include "tools/words/command_line.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
