@@ -42,13 +42,15 @@ bool alike(const ShapeGeometry& first, const ShapeGeometry& later) {
 void check_motion(const SceneData& data) {
     for (const auto& [which, later] : data.motion.shapes)
         if (which >= data.shapes.size() || later.empty() ||
-            !std::ranges::all_of(later, [&](const auto& one) { return alike(data.shapes[which].geometry, one); }))
+            !std::ranges::all_of(later,
+                                 [&, i = which](const auto& one) { return alike(data.shapes[i].geometry, one); }))
             throw Error("scene", "a shape that moves is another one later");
     for (const auto& [which, later] : data.motion.instances)
         if (which >= data.instances.size() || later.empty()) throw Error("scene", "an instance that moves isn't there");
     for (const auto& [which, later] : data.motion.lights)
         if (which >= data.lights.size() || later.empty() || !can_move(data.lights[which]) ||
-            !std::ranges::all_of(later, [&](const auto& one) { return one.index() == data.lights[which].index(); }))
+            !std::ranges::all_of(later,
+                                 [&, i = which](const auto& one) { return one.index() == data.lights[i].index(); }))
             throw Error("scene", "a light that moves is another one later");
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <iterator>
 
+#include "core/film/clean_layers.hpp"
 #include "tests/support/folder.hpp"
 
 namespace lightnet::run_recorder_test {
@@ -65,6 +66,27 @@ TEST(RunRecorder, SaysInEveryModeThatItsPreviewOrCheckpointIsLost) {
         book.end_checkpoint(true);
     });
     EXPECT_THAT(said, HasSubstr("samples can't be added to the picture later: "));
+}
+
+// Hosts that hear nothing for seconds take the run for gone.
+TEST(RunRecorder, HasHostsAttendedToWhileItCleansOrWritesMuch) {
+    constexpr std::uint32_t side = 512, least = 32;
+    FilmFormat format{side, side, {"direct"}, 64, {}, {1e-6f, least}};
+    format.shown = {cleaning::half_of("direct")};
+    RunRecorder book(format, ProgressMode::none, side, {});
+    int times = 0;
+    book.attend_by([&] { ++times; });
+    std::vector<Rgb> pixels(std::size_t{side} * side * format.colours());
+    for (float value = 0; auto& pixel : pixels) pixel.r = value += 0.37f;  // what isn't packed in no time
+    std::vector<Tile> next;
+    for (std::uint32_t block = 0; block < least / samples_per_block; ++block)
+        next = book.take({0, 0, side, side, block * samples_per_block, samples_per_block}, pixels);
+    EXPECT_FALSE(next.empty()) << "a round is over";
+    EXPECT_GT(times, 0);
+    times = 0;
+    const test::Folder folder;
+    EXPECT_EQ(book.preview_now(folder / "x.exr"), "");
+    EXPECT_GT(times, 0);
 }
 
 // The report beside a picture tells how that came about.

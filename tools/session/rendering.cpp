@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -41,6 +42,32 @@ std::string who_runs(const Graph& graph) {
 }
 
 }  // namespace
+
+/// The hosts' attention, as long as it lives, while the recorder writes or cleans for long.
+class Rendering::Attention {
+public:
+    Attention(RunRecorder& book, Coordinator& coordinator) : book_(book) {
+        book_.attend_by([this, &coordinator] {
+            try {
+                if (!trouble_) coordinator.wait(1ms);
+            } catch (...) {
+                trouble_ = std::current_exception();
+            }
+        });
+    }
+    ~Attention() { book_.attend_by(nullptr); }
+    Attention(const Attention&) = delete;
+    Attention& operator=(const Attention&) = delete;
+
+    /// Throws what was met meanwhile.
+    void check() const {
+        if (trouble_) std::rethrow_exception(trouble_);
+    }
+
+private:
+    RunRecorder& book_;
+    std::exception_ptr trouble_;
+};
 
 Rendering::Rendering(Assignment what, RunRecorder& book, const Signals& signals)
     : what_(std::move(what)),
@@ -189,15 +216,18 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     };
     if (!what_.request.tuning.verify) write_kept();
     book_.phase("render");
+    const Attention attention(book_, coordinator);
     for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
+        attention.check();
         TilesByPass passes(what_.job.graph, what_.registry, tiles);
-        while (!passes.empty() && !ended()) hand_out_pass(coordinator, passes, crowd);
+        while (!passes.empty() && !ended()) hand_out_pass(coordinator, passes, crowd, attention);
     }
     if (what_.request.tuning.verify && !stopped()) write_kept();  // nobody was found to have lied
 }
 
 // Prepares for the next pass, as far as that is still to be done, and has its tiles rendered.
-void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, const Crowd& crowd) {
+void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, const Crowd& crowd,
+                              const Attention& attention) {
     MasterRenderer::Job job;
     job.run = id_;
     job.image = static_cast<std::uint32_t>(image_);
@@ -215,6 +245,7 @@ void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, con
     MasterRenderer* more = nullptr;
     MasterRenderer master(std::move(job), coordinator, [&](const Tile& tile, std::span<const Rgb> pixels) {
         more->append(passes.sort(book_.take(tile, pixels)));
+        attention.check();
     });
     more = &master;
     master.use(coordinator.in_force());

@@ -70,10 +70,11 @@ private:
     };
     void show(const Crowd& crowd);
     void obey(const WatchCommand& wish, const Crowd& crowd);
+    class Attention;
     static HostState this_process(std::uint32_t places, HostFigures figures);
     void render(SerialRun& run);
     void hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd);
-    void hand_out_pass(Coordinator& coordinator, TilesByPass& passes, const Crowd& crowd);
+    void hand_out_pass(Coordinator& coordinator, TilesByPass& passes, const Crowd& crowd, const Attention& attention);
     bool prepare(Coordinator& coordinator, const Crowd& crowd);
     ResultCache* cache();
     std::uint32_t tiles_per_place(const Plan& plan) const;

@@ -147,7 +147,8 @@ std::vector<Tile> RunRecorder::take(const Tile& tile, std::span<const Rgb> pixel
     const bool added = film.add(tile, pixels);
     const bool wanted = added || !film.has(tile);
     auto next = wanted ? film.more(tile) : std::vector<Tile>{};
-    const auto of_round = added ? end_round_if_over(film) : std::vector<Tile>{};
+    const auto of_round =
+        added && film.round_is_over() ? apart([&] { return end_round_if_over(film); }) : std::vector<Tile>{};
     next.insert(next.end(), of_round.begin(), of_round.end());
     if (added && steps_.lasts(tile)) blocks_ += tile.blocks();
     if (!wanted) ++repeated_;
@@ -184,7 +185,7 @@ std::string RunRecorder::write_preview() {
     std::string why_not;
     try {
         write_files(preview_->exr);
-        previewed_ = true;
+        last_.is_preview = true;
         RunReport report = report_;
         report.outcome = "preview";
         report.settings["done"] = fmt::format("{:.4f}", steps_.done());
@@ -216,7 +217,7 @@ void RunRecorder::take_up_checkpoint() {
 
 void RunRecorder::begin_anew() {
     if (checkpoint_) checkpoint_->begin_anew();
-    if (previewed_) alert("the preview that is there may hold false light");
+    if (last_.is_preview) alert("the preview that is there may hold false light");
     steps_.clear();
     blocks_ = 0;
     progress_.update(0, Clock::now());
@@ -302,7 +303,7 @@ void RunRecorder::use(const Plan& plan, const Graph& graph) {
 void RunRecorder::write_picture(const std::string& exr) {
     write_files(exr);
     if (film().format().halves()) write_clean(exr);
-    previewed_ = false;
+    last_.is_preview = false;
     const Film& film = steps_.picture();
     if (film.complete())
         if (const auto words = firefly_words(picture_now(), report_.nodes, exr);
@@ -326,7 +327,7 @@ void RunRecorder::conclude(const Hosts& asked, double exposure) {
     if (film().format().alpha) layers.emplace_back("A");
     if (const auto& error = report_.error)
         say(fmt::format("relMSE to {}: {:g}", error->reference, error->relative_square));
-    say(summary_of({report_, layers, asked, brightness_, exposure, png_.stops, shown_stops_}));
+    say(summary_of({report_, layers, asked, last_.brightness, exposure, png_.stops, last_.stops}));
 }
 
 void RunRecorder::write_report(const std::string& exr, const std::string& outcome) {

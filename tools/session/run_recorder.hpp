@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/log_entry.hpp"
+#include "core/base/spare_threads.hpp"
 #include "core/film/film.hpp"
 #include "core/film/tone.hpp"
 #include "core/network/graph/hosts.hpp"
@@ -93,7 +94,10 @@ public:
     /// Writes what is there now. "": it is written; else why not.
     std::string preview_now(const std::string& exr);
     /// A preview was written, and no picture since.
-    bool previewed() const { return previewed_; }
+    bool previewed() const { return last_.is_preview; }
+    /// While something takes long (a large file, a picture to be cleaned), calls `attend` all the time: hosts that hear
+    /// nothing for seconds take the run for gone. Null: there are none. It must not throw.
+    void attend_by(std::function<void()> attend) { attend_ = std::move(attend); }
     /// Pixels of a tile. Returns the tiles that are wanted now, beside those that are wanted anyhow.
     std::vector<Tile> take(const Tile& tile, std::span<const Rgb> pixels);
     /// Who holds what, from now on.
@@ -161,6 +165,15 @@ private:
         Pace pace;
         bool said = false;
     };
+    /// What was written last.
+    struct Written {
+        double stops = 0;  // by which the PNG is brighter than its picture
+        Brightness brightness;
+        double step = 0;  // samples, of the last step
+        bool is_preview = false;
+    };
+    template <class Work>
+    auto apart(const Work& work);
     Picture picture_now() const;
     void write_files(const std::string& exr, bool quickly = false);
     void write_clean(const std::string& exr);
@@ -183,18 +196,16 @@ private:
     std::string arrays_;  // file; "": none
     std::optional<ErrorCurve> curve_;
     Pace::Clock::time_point begun_ = Pace::Clock::now();
-    double shown_stops_ = 0;         // by which the PNG that was written last is brighter than its picture
-    Brightness brightness_;          // of what was written last
-    std::set<std::string> written_;  // pictures
-    std::string last_prepared_;      // node that was named
+    Written last_;
+    std::set<std::string> written_;                       // pictures
+    std::string last_prepared_;                           // node that was named
     std::optional<Pace::Clock::time_point> doing_since_;  // what stands last in the report's `preparing`
     bool said_overflow_ = false;
+    std::function<void()> attend_;
     Watcher* watcher_ = nullptr;
     std::optional<Preview> preview_;
     std::string step_exr_;
-    double shown_samples_ = 0;                        // of the last step that was written
     std::function<void(const PictureShown&)> shown_;  // none: steps are not written
-    bool previewed_ = false;
     std::optional<CheckpointKeeper> checkpoint_;
     std::string trace_;                     // file; "": none
     std::vector<std::string> graph_nodes_;  // names by index
@@ -205,5 +216,14 @@ private:
     std::uint64_t blocks_ = 0, repeated_ = 0;  // of tiles
     std::optional<Pace::Clock::time_point> phase_begun_;
 };
+
+template <class Work>
+auto RunRecorder::apart(const Work& work) {
+    constexpr std::chrono::milliseconds often(20);
+    if (!attend_) return work();
+    auto done = in_background(work);
+    while (done.wait_for(often) != std::future_status::ready) attend_();
+    return done.get();
+}
 
 }  // namespace lightnet

@@ -31,17 +31,17 @@ void RunRecorder::write_files(const std::string& exr, bool quickly) {
     if (picture.overflowed && !std::exchange(said_overflow_, true))
         alert(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
                           picture.overflowed));
-    write_exr(exr, picture);
+    apart([&] { write_exr(exr, picture); });
     written_.insert(exr);
-    brightness_ = brightness_of(picture, png_.stops.value_or(0));
-    const PngView view = png_view(png_, brightness_, exposed_);
-    write_png(png, picture, view);
-    shown_stops_ = view.stops;
+    last_.brightness = brightness_of(picture, png_.stops.value_or(0));
+    const PngView view = png_view(png_, last_.brightness, exposed_);
+    apart([&] { write_png(png, picture, view); });
+    last_.stops = view.stops;
     report_.layers = light_of_layers(picture);
     report_.outputs = {exr, png.string()};
     if (!arrays_.empty()) {
         expect_ours(arrays_, npz_beginning);
-        write_npz(arrays_, picture);
+        apart([&] { write_npz(arrays_, picture); });
         report_.outputs.push_back(arrays_);
     }
     report_.settings["tone of the PNG"] = tone_of(view);
@@ -56,7 +56,7 @@ void RunRecorder::write_clean(const std::string& exr) {
     const Cleaned cleaned = clean(picture_now());
     for (const auto& lack : cleaned.lacks) alert(file + " could be better: " + lack);
     write_exr(file, cleaned.picture);
-    write_png(png_beside(file), cleaned.picture, png_view(png_, brightness_, exposed_));
+    write_png(png_beside(file), cleaned.picture, png_view(png_, last_.brightness, exposed_));
     report_.outputs.insert(report_.outputs.end(), {file, png_beside(file).string()});
     if (!arrays_.empty()) {
         const auto arrays = clean_beside(arrays_);

@@ -46,8 +46,8 @@ void RunRecorder::show_steps(const std::string& exr, std::function<void(const Pi
 // What is lost of it comes with the next step.
 void RunRecorder::write_step() {
     const double samples = steps_.picture().mean_samples();
-    if (!covered() || samples <= shown_samples_) return;
-    shown_samples_ = samples;
+    if (!covered() || samples <= last_.step) return;
+    last_.step = samples;
     try {
         write_files(step_exr_, true);
         tell_shown(false);

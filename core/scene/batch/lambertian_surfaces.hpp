@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/scene/surfaces/flat_lamp.hpp"
+#include "core/scene/surfaces/heuristic.hpp"
 #include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/mesh_points.hpp"
 

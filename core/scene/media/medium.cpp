@@ -44,14 +44,13 @@ Rgb VolumeGrid::point(std::int64_t x, std::int64_t y, std::int64_t z) const {
 }
 
 Rgb VolumeGrid::at(Vec3 place) const {
-    const auto [x, a] = between(place.x, size[0]);
-    const auto [y, b] = between(place.y, size[1]);
-    const auto [z, c] = between(place.z, size[2]);
-    if (nearest) return point(x + (a >= 0.5f), y + (b >= 0.5f), z + (c >= 0.5f));
-    const auto row = [&](std::int64_t j, std::int64_t k) {
-        return mixed(point(x, y + j, z + k), point(x + 1, y + j, z + k), a);
+    const auto x = between(place.x, size[0]), y = between(place.y, size[1]), z = between(place.z, size[2]);
+    const auto corner = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+        return point(x.first + i, y.first + j, z.first + k);
     };
-    return mixed(mixed(row(0, 0), row(1, 0), b), mixed(row(0, 1), row(1, 1), b), c);
+    if (nearest) return corner(x.part >= 0.5f, y.part >= 0.5f, z.part >= 0.5f);
+    const auto row = [&](std::int64_t j, std::int64_t k) { return mixed(corner(0, j, k), corner(1, j, k), x.part); };
+    return mixed(mixed(row(0, 0), row(1, 0), y.part), mixed(row(0, 1), row(1, 1), y.part), z.part);
 }
 
 Hash VolumeGrid::content() const {
