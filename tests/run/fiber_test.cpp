@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -49,6 +50,22 @@ TEST(Fibers, MayParkInsideACatchBlockWithoutMixingUpTheirExceptions) {
     fibers.resume(waiting[0]);
     fibers.resume(waiting[1]);
     EXPECT_EQ(caught, (std::vector<std::string>{"first caught first", "second caught second"}));
+}
+
+TEST(Fibers, ThrowWhatTheirWorkThrowsWhereTheyWereResumed) {
+    Fibers fibers;
+    EXPECT_THROW(fibers.start("node", [] { throw std::bad_alloc(); }), std::bad_alloc);
+    Fibers::Fiber* waiting = nullptr;
+    fibers.start("node", [&] {
+        waiting = fibers.current();
+        fibers.park();
+        throw std::runtime_error("late");
+    });
+    EXPECT_THROW(fibers.resume(waiting), std::runtime_error);
+    EXPECT_EQ(fibers.alive(), 0u);
+    bool runs = false;
+    fibers.start("node", [&] { runs = true; });
+    EXPECT_TRUE(runs);
 }
 
 TEST(Fibers, UnwindWhenTheyAreCancelled) {

@@ -6,6 +6,7 @@
 #include <cxxabi.h>
 #include <x86intrin.h>
 #include <cassert>
+#include <exception>
 #include <utility>
 
 #include "core/run/fiber/fiber_stack.hpp"
@@ -100,6 +101,7 @@ struct Fibers::Shared {
     StackGuard::Running running;
     StackGuard guard{running};
     boost::context::fiber outside;
+    std::exception_ptr failure;  // of the fiber that has just run
     ExceptionState exceptions;
     SanitizerView view;
     const void* outside_lowest = nullptr;
@@ -140,6 +142,10 @@ void Fibers::start(const char* owner, std::function<void()> work) {
                                           try {
                                               fresh->work();
                                           } catch (const Cancelled&) {
+                                          } catch (const boost::context::detail::forced_unwind&) {
+                                              throw;
+                                          } catch (...) {  // Boost would end the process
+                                              shared_->failure = std::current_exception();
                                           }
                                           fresh->work = nullptr;
                                           fresh->cancelled = false;
@@ -192,6 +198,7 @@ void Fibers::switch_to(Fiber* fiber) {
     shared_->running = {};
     current_ = nullptr;
     if (watcher_) watcher_->left(fiber, fiber->owner, !fiber->work);
+    if (shared_->failure) std::rethrow_exception(std::exchange(shared_->failure, nullptr));
 }
 
 void Fibers::park() {
@@ -234,7 +241,10 @@ void Fibers::cancel_all() {
             auto* fiber = fibers_[i].get();
             if (!fiber->work || !fiber->parked || fiber->used_by_others) continue;
             fiber->cancelled = true;
-            switch_to(fiber);
+            try {
+                switch_to(fiber);
+            } catch (...) {  // nobody waits for what it was at
+            }
         }
         assert(alive_ < before && "a cancelled fiber must unwind");
         if (alive_ >= before) break;

@@ -34,7 +34,8 @@ public:
     Fibers& operator=(const Fibers&) = delete;
 
     /// Runs `work` in a fiber, at once, until it first parks. `owner` names it if its stack runs out; it must outlive
-    /// the fiber. `work` must not throw anything but Cancelled. Call from outside fibers only.
+    /// the fiber. What `work` throws, but for Cancelled, comes out of here or of resume(). Call from outside fibers
+    /// only.
     void start(const char* owner, std::function<void()> work);
 
     /// The fiber that runs now; null outside.
