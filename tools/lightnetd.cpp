@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/hash.hpp"
 #include "core/base/this_machine.hpp"
 #include "lua/custom.hpp"
 #include "nodes/examples/candela/candela_kinds.hpp"
@@ -73,6 +74,8 @@ void load_all_plugins(const lightnet::DaemonOptions& options, lightnet::Registry
 
 int serve(lightnet::DaemonOptions options, const lightnet::DaemonLog& log, lightnet::StandardOutput& output) {
     if (options.print_key) return print_key(options);
+    // OpenSSL looks for its hashes once, and has none for ever after where there was no memory for that.
+    const lightnet::Hasher first_of_all;
     options.host.key = options.led ? lightnet::key_from_input() : lightnet::take_key_from_environment();
     if (options.led && !options.host.key) return lightnet::exit_code::done;  // whoever holds it has let go
     if (!options.host.key && (!options.host.allow.empty() || options.host.launcher_key))
