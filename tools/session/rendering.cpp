@@ -43,7 +43,7 @@ std::string who_runs(const Graph& graph) {
 
 }  // namespace
 
-/// The hosts' attention, as long as it lives, while the recorder writes or cleans for long.
+/// As long as it lives, hosts are attended to while the recorder writes or cleans for long.
 class Rendering::Attention {
 public:
     Attention(RunRecorder& book, Coordinator& coordinator) : book_(book) {

@@ -59,11 +59,10 @@ private:
     void begin_anew(Crew& crew, const Failure& lie);
     std::shared_ptr<const Network> network_of_files() const;
     Cluster::Options cluster_options(const DiskFiles& files);
-    /// Called several times a second with the number of places that render.
     /// Those who do the work.
     struct Crowd {
-        std::function<void(std::size_t renderers)> look_around;
-        std::function<Doings()> doing;  // while they prepare
+        std::function<void(std::size_t renderers)> look_around;  // called several times a second
+        std::function<Doings()> doing;                           // while they prepare
         std::function<std::vector<HostState>()> hosts;
         std::function<bool(const std::string& host)> drain;  // none: nobody can be taken out
         std::function<void()> trust = [] {};                 // throws when somebody has lied
