@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -116,21 +117,35 @@ double seconds_in(const std::string& text) {
     return seconds;
 }
 
+/// The file's own shutter is that of its own time: where another moment is asked for, that is an instant.
+std::optional<ShutterSpan> own_shutter(const SceneData& scene, bool timed) {
+    if (timed || scene.animations.empty() || !scene.shutter) return std::nullopt;
+    return scene.shutter->close > scene.shutter->open ? scene.shutter : std::nullopt;
+}
+
 /// What is said of a shutter, if anything, and all else apart from it.
 SceneData read_all_its_time(Files& files, const std::string& path, SceneConstants constants,
                             std::span<const SceneFormat> formats) {
     const auto said = constants.extract(std::string(shutter_constant));
     const SceneFormat* format = format_of(path, formats);
-    if (!said || !format || !format->moves) return read(files, path, constants, formats);
-    const auto time = constants.extract(std::string(time_constant));
-    const double now = time ? seconds_in(time.mapped()) : 0;
-    const std::string& span = said.mapped();
+    if (!format || !format->moves) return read(files, path, constants, formats);
     const auto read_at = [&](double seconds) {
         SceneConstants then = constants;
         then[std::string(time_constant)] = fmt::format("{}", seconds);
         return read(files, path, then, formats);
     };
-    return read_in_shutter(read_at, {now + seconds_in(span), now + seconds_in(span.substr(span.find(' ') + 1))}, path);
+    if (said) {
+        const auto time = constants.extract(std::string(time_constant));
+        const double now = time ? seconds_in(time.mapped()) : 0;
+        const std::string& span = said.mapped();
+        return read_in_shutter(read_at, {now + seconds_in(span), now + seconds_in(span.substr(span.find(' ') + 1))},
+                               path);
+    }
+    SceneData scene = read(files, path, constants, formats);
+    const auto own = own_shutter(scene, constants.contains(std::string(time_constant)));
+    if (!own) return scene;
+    scene = {};  // there may not be room for two
+    return read_in_shutter(read_at, *own, path);
 }
 
 /// What each reader would have to look for: names that lead nowhere or in circles.

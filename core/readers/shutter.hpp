@@ -8,11 +8,6 @@
 
 namespace lightnet {
 
-/// When the shutter is open, in seconds of the scene's own time.
-struct ShutterSpan {
-    double open = 0, close = 0;
-};
-
 /// The scene as it is when the shutter opens, with its motion until it closes. `read_at` gives the scene at a time. It
 /// is asked at the ends, and half-way, again and again until each thing between two steps is within a thousandth of
 /// its size of where a straight way would have it, in up to 32 parts. What has other parts at other times stands still,

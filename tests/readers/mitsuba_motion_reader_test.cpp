@@ -45,7 +45,26 @@ TEST(MitsubaMotion, StandsAsAtFirstInAStill) {
     EXPECT_THAT(warnings_of(scene), HasSubstr("animated transforms are taken as they stand at first"));
 }
 
+TEST(MitsubaMotion, IsThatOfTheSensorsShutter) {
+    auto open = moving;
+    open.insert(open.find("<animation"),
+                "<float name=\"shutterOpen\" value=\".25\"/><float name=\"shutterClose\" value=\".75\"/>");
+    const auto scene = at(open, {});
+    EXPECT_FLOAT_EQ(ball(scene), 1);
+    EXPECT_FLOAT_EQ(std::get<Sphere>(scene.motion.shapes.at(0).later.back()).center.x, 3);
+    EXPECT_FLOAT_EQ(float(scene.camera.later.back().to_world.m[2][3]), -6.5f);
+    EXPECT_EQ(warnings_of(scene).find("animated"), std::string::npos);
+    // another moment is an instant, and another shutter takes its place
+    EXPECT_TRUE(at(open, {{std::string(time_constant), "0.5"}}).motion.empty());
+    EXPECT_TRUE(at(open, {{std::string(shutter_constant), "0 0"}}).motion.empty());
+    EXPECT_FLOAT_EQ(ball(at(open, {{std::string(shutter_constant), "0 0"}})), 0);
+}
+
 TEST(MitsubaMotion, SaysWhatIsWrong) {
+    auto backwards_shutter = moving;
+    backwards_shutter.insert(backwards_shutter.find("<animation"), "<float name=\"shutterOpen\" value=\"1\"/>");
+    EXPECT_THAT(mistake_of([&] { at(backwards_shutter, {}); }), HasSubstr("must not close before it opens"));
+
     auto backwards = moving;
     backwards.replace(backwards.find("time=\"2\""), 8, "time=\"0\"");
     EXPECT_THAT(mistake_of([&] { at(backwards, {}); }), HasSubstr("the times of an animation follow each other"));

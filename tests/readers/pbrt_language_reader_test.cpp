@@ -80,13 +80,6 @@ TEST(PbrtTransforms, HaveNames) {
     expect_near(mesh_of(scene).positions[0], {0, 0, -5});
 }
 
-TEST(PbrtTransforms, OfTheEndOfTheTimeAreLeftOut) {
-    const auto scene =
-        read_world("ActiveTransform EndTime Translate 5 0 0 ActiveTransform All Translate 0 1 0 " + triangle);
-    expect_near(mesh_of(scene).positions[1], {1, 1, 0});
-    EXPECT_THAT(warnings_of(scene), HasSubstr("motion is left out"));
-}
-
 TEST(PbrtCamera, LooksAlongZWithXToTheRight) {
     const auto camera = read_text("LookAt 1 2 3  1 2 13  0 1 0 Camera \"perspective\" WorldBegin").camera;
     expect_near(transform_point(camera.to_world, {0, 0, 0}), {1, 2, 3});

@@ -65,6 +65,8 @@ void print_names(const SceneData& scene, std::ostream& out) {
         line(out, "camera " + std::to_string(i + 1), scene.cameras[i].name);
     for (const auto& [name, seconds] : scene.animations)
         line(out, "animation", fmt::format("{}{}{:.4g} s", name, name.empty() ? "" : ", ", seconds));
+    if (const auto& shutter = scene.shutter; shutter && !scene.animations.empty() && shutter->close > shutter->open)
+        line(out, "shutter", fmt::format("open from {:.4g} s to {:.4g} s", shutter->open, shutter->close));
     for (const auto& [name, shown] : scene.variants) line(out, "variant", name + (shown ? " (shown)" : ""));
     for (const auto& lamp : lamps_of(scene)) {
         const std::vector<std::string> others(lamp.names.begin() + 1, lamp.names.end());

@@ -68,13 +68,14 @@ private:
         SceneData& scene = context_.assets.scene();
         const CameraData camera = scene.camera;
         const FilmData film = scene.film;
+        const auto shutter = scene.shutter;
         depths_.push_back(set_sensor(node, context_));
         for (const auto& child : node.children)
             if (child->tag == "medium" || child->tag == "ref")
                 if (const Node* target = context_.resolved(*child); target && target->tag == "medium")
                     scene.around = media_.made(*target);
         scene.cameras.push_back({node.id, scene.camera, scene.film});
-        if (scene.cameras.size() > 1) scene.camera = camera, scene.film = film;
+        if (scene.cameras.size() > 1) scene.camera = camera, scene.film = film, scene.shutter = shutter;
     }
 
     void referred(const Node& node) {

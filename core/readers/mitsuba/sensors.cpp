@@ -107,11 +107,13 @@ void look_around(CameraData& camera) {
 
 SensorDepth set_sensor(const Node& node, const Context& context) {
     Properties properties(node, context);
-    properties.ignore({"shutter_open", "shutter_close"});
     properties.objects("sampler"), properties.objects("rfilter"), properties.objects("medium");
     const SensorDepth depth{properties.number("near_clip", 1e-2f), properties.number("far_clip", 1e4f)};
     SceneData& scene = context.assets.scene();
     scene.film = film_of(properties);
+    const ShutterSpan shutter{properties.number("shutter_open", 0), properties.number("shutter_close", 0)};
+    if (shutter.close < shutter.open) context.error(node, "the shutter must not close before it opens");
+    scene.shutter = shutter;
     CameraData camera;
     camera.to_world = transform_of(properties);
     const Vec3 scale = take_scale(camera.to_world);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "core/base/suggestion.hpp"
@@ -30,12 +29,14 @@ Part part_of(const std::string& directive) {
 
 }  // namespace
 
-Builder::Builder(const Sources& sources)
+Builder::Builder(const Sources& sources, std::optional<double> seconds)
     : sources_(sources),
       pictures_(sources_, thread_pool_),
       textures_(sources_, scene_, pictures_),
       measurements_(sources_.report),
       shapes_(sources_, thread_pool_),
+      transforms_(sources_.report),
+      seconds_(seconds),
       media_(sources_, scene_) {
     scene_.film.width = sources_.older() ? 640 : 1280, scene_.film.height = sources_.older() ? 480 : 720;
     Material grey;
@@ -46,21 +47,15 @@ Builder::Builder(const Sources& sources)
 
 const std::map<std::string, Builder::Handler>& Builder::handlers() {
     static const std::map<std::string, Handler> table{{"Accelerator", &Builder::ignored},
-                                                      {"ActiveTransform", &Builder::active_transform},
                                                       {"AreaLightSource", &Builder::area_light},
                                                       {"Attribute", &Builder::attribute},
                                                       {"AttributeBegin", &Builder::attribute_begin},
                                                       {"AttributeEnd", &Builder::attribute_end},
                                                       {"Camera", &Builder::camera},
                                                       {"ColorSpace", &Builder::color_space},
-                                                      {"ConcatTransform", &Builder::concat_transform},
-                                                      {"CoordSysTransform", &Builder::coord_sys_transform},
-                                                      {"CoordinateSystem", &Builder::coordinate_system},
                                                       {"Film", &Builder::film},
-                                                      {"Identity", &Builder::identity},
                                                       {"Integrator", &Builder::ignored},
                                                       {"LightSource", &Builder::light},
-                                                      {"LookAt", &Builder::look_at},
                                                       {"MakeNamedMaterial", &Builder::make_named_material},
                                                       {"MakeNamedMedium", &Builder::make_named_medium},
                                                       {"Material", &Builder::material},
@@ -73,17 +68,12 @@ const std::map<std::string, Builder::Handler>& Builder::handlers() {
                                                       {"PixelFilter", &Builder::ignored},
                                                       {"Renderer", &Builder::older_business},
                                                       {"ReverseOrientation", &Builder::reverse_orientation},
-                                                      {"Rotate", &Builder::rotate},
                                                       {"Sampler", &Builder::ignored},
-                                                      {"Scale", &Builder::scale},
                                                       {"Shape", &Builder::shape},
                                                       {"SurfaceIntegrator", &Builder::older_business},
                                                       {"Texture", &Builder::texture},
-                                                      {"Transform", &Builder::transform},
                                                       {"TransformBegin", &Builder::transform_begin},
                                                       {"TransformEnd", &Builder::transform_end},
-                                                      {"TransformTimes", &Builder::ignored},
-                                                      {"Translate", &Builder::translate},
                                                       {"Volume", &Builder::volume},
                                                       {"VolumeIntegrator", &Builder::older_business},
                                                       {"WorldBegin", &Builder::world_begin},
@@ -102,6 +92,8 @@ void Builder::execute(Statement& statement) {
         sources_.report.error(statement.where, statement.directive + " must stand before WorldBegin");
     else if (part == Part::in_world && !in_world_)
         sources_.report.error(statement.where, statement.directive + " must stand behind WorldBegin");
+    else if (CurrentTransform::knows(statement.directive))
+        transforms_.execute(statement, state_.to_world);
     else
         (this->*handlers().at(statement.directive))(statement);
 }
@@ -128,60 +120,11 @@ void Builder::finish() {
     scene_.warnings = sources_.report.warnings();
 }
 
-void Builder::apply(const Matrix& matrix) {
-    if (state_.active) state_.to_world = state_.to_world * matrix;
-}
+Matrix Builder::to_world() { return standing(state_.to_world.transform); }
 
-void Builder::look_at(Statement& s) {
-    if (const auto matrix = pbrt::look_at(std::span<const double, 9>(s.numbers)))
-        apply(*matrix);
-    else
-        sources_.report.error(s.where, "LookAt: eye, target and up must span a view");
-}
-
-void Builder::translate(Statement& s) { apply(translation(s.numbers[0], s.numbers[1], s.numbers[2])); }
-
-// What is scaled by 0, or by a singular matrix, does no harm until something stands there.
-void Builder::scale(Statement& s) { apply(scaling(s.numbers[0], s.numbers[1], s.numbers[2])); }
-
-void Builder::rotate(Statement& s) {
-    if (const auto matrix = rotation(s.numbers[0], s.numbers[1], s.numbers[2], s.numbers[3]))
-        apply(*matrix);
-    else
-        sources_.report.error(s.where, "Rotate needs an axis that is not 0");
-}
-
-void Builder::transform(Statement& s) {
-    if (state_.active) state_.to_world = by_columns(std::span<const double, 16>(s.numbers));
-}
-
-void Builder::concat_transform(Statement& s) { apply(by_columns(std::span<const double, 16>(s.numbers))); }
-
-void Builder::identity(Statement&) {
-    if (state_.active) state_.to_world = {};
-}
-
-void Builder::coordinate_system(Statement& s) { systems_[s.names[0]] = state_.to_world; }
-
-void Builder::coord_sys_transform(Statement& s) {
-    if (const auto found = systems_.find(s.names[0]); found != systems_.end()) {
-        if (state_.active) state_.to_world = found->second;
-        return;
-    }
-    std::vector<std::string> known;
-    for (const auto& [name, matrix] : systems_) known.push_back(name);
-    sources_.report.error(
-        s.where, fmt::format("there is no coordinate system '{}'{}", s.names[0], did_you_mean(s.names[0], known)));
-}
-
-void Builder::active_transform(Statement& s) {
-    const std::string& which = s.names[0];
-    if (which != "All" && which != "StartTime" && which != "EndTime") {
-        sources_.report.error(s.where, fmt::format("ActiveTransform is All, StartTime or EndTime, not '{}'", which));
-        return;
-    }
-    state_.active = which != "EndTime";
-    if (which != "All") sources_.report.warn(s.where, "motion is left out: all stands as at its start");
+Matrix Builder::standing(const MovingTransform& transform) {
+    if (transform.moves() && scene_.animations.empty()) scene_.animations.push_back({"", transforms_.end_seconds()});
+    return transforms_.at(transform, seconds_.value_or(scene_.shutter ? scene_.shutter->open : 0));
 }
 
 void Builder::push(Block block, const SourceLine& where) {
@@ -235,9 +178,7 @@ void Builder::reverse_orientation(Statement&) { state_.reversed = !state_.revers
 
 void Builder::world_begin(Statement&) {
     in_world_ = true;
-    state_.to_world = {};
-    state_.active = true;
-    systems_["world"] = {};
+    transforms_.begin_world(state_.to_world);
 }
 
 void Builder::world_end(Statement& s) {
@@ -270,7 +211,7 @@ void Builder::option(Statement& s) {
 void Builder::ignored(Statement&) {}
 
 void Builder::make_named_medium(Statement& s) {
-    if (!media_.define(s.names[0], state_.to_world, s.parameters))
+    if (!media_.define(s.names[0], to_world(), s.parameters))
         s.parameters.error(fmt::format("there is a medium '{}' already", s.names[0]));
 }
 
@@ -289,20 +230,24 @@ void Builder::color_space(Statement& s) {
 }
 
 void Builder::camera(Statement& s) {
-    const auto to_world = inverse(state_.to_world);
-    if (!to_world) {
+    const auto& [start, end] = state_.to_world.transform;
+    const auto from_start = inverse(start), from_end = inverse(end);
+    if (!from_start || !from_end) {
         sources_.report.error(s.where, "the camera's transform is singular");
         return;
     }
-    const Shot shot = make_camera(s.names[0], s.parameters, *to_world, sources_.version);
+    const Shot shot = make_camera(s.names[0], s.parameters, sources_.version);
     s.parameters.warn_unused();
+    scene_.shutter = shot.shutter;
+    const MovingTransform to_world{*from_start, *from_end};
     scene_.camera = shot.camera;
+    scene_.camera.to_world = standing(to_world);
     scene_.camera.where = s.where;
     scene_.camera_given = true;
     around_ = state_.outside;
     around_where_ = s.where;
     exposure_ = shot.exposure;
-    systems_["camera"] = *to_world;
+    transforms_.define("camera", to_world);
 }
 
 void Builder::film(Statement& s) {

@@ -14,6 +14,7 @@
 #include "core/readers/common/measurements.hpp"
 #include "core/readers/pbrt/camera.hpp"
 #include "core/readers/pbrt/colour_space.hpp"
+#include "core/readers/pbrt/current_transform.hpp"
 #include "core/readers/pbrt/lights.hpp"
 #include "core/readers/pbrt/media.hpp"
 #include "core/readers/pbrt/pictures.hpp"
@@ -28,7 +29,8 @@ namespace lightnet::pbrt {
 /// Holds pbrt's graphics state and the scene so far. Include and Import are not its business.
 class Builder {
 public:
-    explicit Builder(const Sources& sources);
+    /// `seconds`: the moment at which all is to stand; none: what the file's shutter opens on.
+    Builder(const Sources& sources, std::optional<double> seconds);
     ~Builder() { thread_pool_.finish(); }  // what is under way looks at other members
     Builder(const Builder&) = delete;
     Builder& operator=(const Builder&) = delete;
@@ -47,9 +49,8 @@ private:
 
     /// pbrt's graphics state.
     struct State {
-        Matrix to_world;
+        TransformState to_world;
         bool reversed = false;
-        bool active = true;  // ActiveTransform: false when only the end of the time is meant
         ColourSpace space = ColourSpace::srgb;
         std::size_t material = 0;  // index into uses_
         std::optional<AreaLight> lamp;
@@ -84,17 +85,9 @@ private:
         SourceLine where;
     };
 
-    void look_at(Statement&);
-    void translate(Statement&);
-    void scale(Statement&);
-    void rotate(Statement&);
-    void transform(Statement&);
-    void concat_transform(Statement&);
-    void identity(Statement&);
-    void coordinate_system(Statement&);
-    void coord_sys_transform(Statement&);
-    void active_transform(Statement&);
-    void apply(const Matrix& matrix);
+    /// What holds for the next statement, at the moment that is read.
+    Matrix to_world();
+    Matrix standing(const MovingTransform& transform);
 
     void attribute_begin(Statement&);
     void attribute_end(Statement&);
@@ -159,7 +152,8 @@ private:
     bool in_world_ = false, ended_ = false;
     float exposure_ = 1;
     Rgb white_{1, 1, 1};
-    std::map<std::string, Matrix> systems_;
+    CurrentTransform transforms_;
+    std::optional<double> seconds_;
     std::vector<MaterialUse> uses_;
     std::map<std::string, std::size_t> named_;  // index into uses_
     std::map<std::pair<MaterialId, TextureId>, MaterialId> with_alpha_;

@@ -79,7 +79,7 @@ void Builder::named_material(Statement& s) { state_.material = use_of(s.names[0]
 
 void Builder::texture(Statement& s) {
     s.parameters.inherit(state_.defaults["texture"]);
-    textures_.define(s.names[0], s.names[1], s.names[2], state_.to_world, s.parameters);
+    textures_.define(s.names[0], s.names[1], s.names[2], to_world(), s.parameters);
     s.parameters.warn_unused();
 }
 
@@ -92,23 +92,25 @@ void Builder::area_light(Statement& s) {
 void Builder::light(Statement& s) {
     s.parameters.inherit(state_.defaults["light"]);
     const bool everywhere = s.names[0] == "infinite" && !s.parameters.find("filename") && !s.parameters.find("mapname");
-    if (!everywhere && !inverse(state_.to_world))
+    const Matrix placed = to_world();
+    if (!everywhere && !inverse(placed))
         return s.parameters.warn("it stands under a singular transform, and is left out");
     const std::size_t before = scene_.lights.size();
-    add_light(s.names[0], s.parameters, textures_, sources_, state_.to_world, scene_);
+    add_light(s.names[0], s.parameters, textures_, sources_, placed, scene_);
     if (scene_.lights.size() > before && !in_reach(scene_.lights.back())) s.parameters.error("it stands out of reach");
     s.parameters.warn_unused();
 }
 
 void Builder::shape(Statement& s) {
     s.parameters.inherit(state_.defaults["shape"]);
-    const auto from_world = inverse(state_.to_world);
+    const Matrix placed = to_world();
+    const auto from_world = inverse(placed);
     if (!from_world) return s.parameters.warn("it stands under a singular transform, and is left out");
     WaitingShape shape;
     shape.alpha = alpha_of(s.parameters);
     if (sources_.older() && s.parameters.find("shadowalpha"))
         s.parameters.warn("'shadowalpha' is left out: the shape throws the whole shadow of what is there");
-    const Placement placement{state_.to_world, *from_world, state_.reversed};
+    const Placement placement{placed, *from_world, state_.reversed};
     shape.made = shapes_.make(s.names[0], s.parameters, placement);
     shape.turned = placement.flips();
     s.parameters.warn_unused();
@@ -162,13 +164,14 @@ void Builder::object_end(Statement& s) {
 void Builder::object_instance(Statement& s) {
     constexpr std::uint64_t size = 16;  // in memory, beside a vertex's
     const auto found = objects_.find(s.names[0]);
-    const bool singular = !inverse(state_.to_world);
+    const Matrix placed = to_world();
+    const bool singular = !inverse(placed);
     if (singular && found != objects_.end() && !open_object_)
         return sources_.report.warn(s.where, "an instance stands under a singular transform, and is left out");
-    const std::string fault = singular ? "" : lightnet::Placement::fault(state_.to_world);
+    const std::string fault = singular ? "" : lightnet::Placement::fault(placed);
     if (found != objects_.end() && !open_object_ && fault.empty()) {
         shapes_.budget().take(size);
-        if (!shapes_.budget().exceeded()) scene_.instances.push_back({found->second, state_.to_world});
+        if (!shapes_.budget().exceeded()) scene_.instances.push_back({found->second, placed});
         return;
     }
     std::vector<std::string> known;

@@ -90,9 +90,8 @@ void take_scale_out(CameraData& camera) {
         for (float& side : camera.screen) side *= float(*scale);
 }
 
-Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world, Version version) {
+Shot make_camera(const std::string& type, Parameters& parameters, Version version) {
     Shot shot;
-    shot.camera.to_world = to_world;
     const std::vector<std::string> known = camera_types(version);
     if (std::find(known.begin(), known.end(), type) == known.end()) {
         parameters.error(fmt::format("unknown camera '{}'{}", type, did_you_mean(type, known)));
@@ -120,7 +119,9 @@ Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& 
     shot.camera.focus_distance = parameters.number("focaldistance", shot.camera.focus_distance);
     if (shot.camera.lens_radius < 0) parameters.error("'lensradius' must not be negative");
     if (!(shot.camera.focus_distance > 0)) parameters.error("'focaldistance' must be above 0");
-    shot.exposure = parameters.number("shutterclose", 1) - parameters.number("shutteropen", 0);
+    const float closes = parameters.number("shutterclose", 1), opens = parameters.number("shutteropen", 0);
+    shot.shutter = {opens, closes};
+    shot.exposure = closes - opens;
     if (!(shot.exposure > 0)) {
         if (version == Version::v4) parameters.error("the shutter must close after it has opened");
         shot.exposure = 1;

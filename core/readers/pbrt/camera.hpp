@@ -10,14 +10,15 @@
 
 namespace lightnet::pbrt {
 
-/// A camera, and how long its shutter is open.
+/// A camera, and when its shutter is open.
 struct Shot {
     CameraData camera;
+    ShutterSpan shutter;
     float exposure = 1;  // seconds
 };
 
-/// `to_world` is the inverse of the transform at the Camera statement.
-Shot make_camera(const std::string& type, Parameters& parameters, const Matrix& to_world, Version version);
+/// All but where it stands: the inverse of the transform at the Camera statement.
+Shot make_camera(const std::string& type, Parameters& parameters, Version version);
 
 /// Makes the axes of a camera's transform unit vectors, and its lens and screen as large as they were.
 void take_scale_out(CameraData& camera);

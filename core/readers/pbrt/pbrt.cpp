@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -99,7 +100,18 @@ std::optional<VersionSign> wanted_version(const SceneConstants& constants, const
     return wanted;
 }
 
-SceneData read(Files& files, const std::string& path, const SceneConstants& constants) {
+/// Takes the moment that is wanted out of what fills in the file's variables.
+std::optional<double> take_time(SceneConstants& constants, const std::string& path) {
+    if (constants.contains(std::string(animation_constant)))
+        throw UserError({path, 0}, "pbrt's motion has no names, so no 'animation' can be chosen");
+    const auto time = constants.extract(std::string(time_constant));
+    if (!time) return std::nullopt;
+    return std::strtod(time.mapped().c_str(), nullptr);  // a number, as a graph has it
+}
+
+SceneData read(Files& files, const std::string& path, const SceneConstants& given) {
+    SceneConstants constants = given;
+    const auto seconds = take_time(constants, path);
     auto sign = wanted_version(constants, path);
     const bool told = sign.has_value();
     Report report;
@@ -115,7 +127,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
         report.warn(sign->where, fmt::format("the scene is read as one of pbrt-v3, of which only that says {}: see "
                                              "docs/pbrt.md for what differs",
                                              sign->text));
-    Builder builder(sources);
+    Builder builder(sources, seconds);
     Walk(sources, builder).file(path, bytes);
     builder.finish();
     report.check();
@@ -124,6 +136,6 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
 
 }  // namespace
 
-SceneFormat format() { return {.endings = {".pbrt"}, .has_variables = true, .read = read}; }
+SceneFormat format() { return {.endings = {".pbrt"}, .has_variables = true, .moves = true, .read = read}; }
 
 }  // namespace lightnet::pbrt

@@ -113,6 +113,11 @@ struct SceneAnimation {
     double seconds = 0;  // until it has come to its end
 };
 
+/// When a shutter is open, in seconds of the scene's own time.
+struct ShutterSpan {
+    double open = 0, close = 0;
+};
+
 /// One of the ways in which a file dresses what is in it.
 struct SceneVariant {
     std::string name{};
@@ -280,13 +285,15 @@ struct SceneData {
     Onlooker as_read{};                        // as the file has it, where a graph changes what the scene says
     std::vector<SceneAnimation> animations{};  // that the file holds, whether or not it was read at some time of one
     SceneMotion motion{};                      // while the shutter is open
+    std::optional<ShutterSpan> shutter{};      // as the file itself says
     std::vector<SceneVariant> variants{};      // that the file has
     std::optional<Vec3> up{};                  // of the world, where the format says
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
     auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, media,
-           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion, variants, up] = scene;
+           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion, shutter, variants, up] =
+        scene;
     visit(shapes, objects, instances, materials, textures, environments, lights, media, around);
     if (!motion.empty()) visit(motion);  // what stands still is what it was before there was any
 }
