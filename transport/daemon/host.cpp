@@ -20,6 +20,7 @@ using packet::Type;
 
 constexpr auto quiet_before_leaving = std::chrono::milliseconds(300);  // askers may not know yet that it leaves
 constexpr std::size_t most_told = 1000;                                // strangers, one by one
+constexpr int most_failed_turns = 20;                                  // of serve(): it can't go on
 constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
 
 // Says who was turned away, and what would let him in; once, as there may be floods.
@@ -92,50 +93,68 @@ Host::Service::Service(Options given_options, const Registry& kinds)
 Host::Host(Options options, const Registry& registry)
     : service_(std::make_unique<Service>(std::move(options), registry)) {}
 Host::~Host() = default;
-DaemonFigures Host::figures() const {
-    const std::lock_guard lock(service_->shown_mutex);
-    return service_->shown;
-}
+DaemonFigures Host::figures() const { return service_->shown.read(); }
 std::string Host::endpoint() const { return service_->door.endpoint(); }
 
 void Host::serve(const std::atomic<bool>& stop) {
     auto& s = *service_;
     s.needed = Clock::now();
-    while (true) {
-        const auto now = Clock::now();
-        if (stop && (!s.leaving || !s.leaving->for_good)) s.leave(now, true);
-        if (s.leaving && s.gone(now)) {
-            if (s.leaving->for_good) break;
-            if (s.run) s.drop_run("it was told to leave it");
-            s.leaving.reset();
-        }
-        const auto readable = s.wait();
-        if (readable.replies) s.forward_replies();
-        if (readable.door) {
-            s.door.let_in();
-            while (auto frames = s.door.receive(Clock::now())) s.arrived(std::move(*frames));
-        }
-        s.look_at_arriving();
-        s.look_at_ending();
-        s.door.go_on(now);
-        if (readable.gateway) s.forward_asks();
-        if (s.peers && (readable.peers || s.peers->due(now))) s.peers->tick(now);
-        if (readable.news || (s.run && !s.run->serving())) s.advance();
-        if (readable.news) s.tell_found(), s.tell_failures();
-        if (s.rights.owner_is_gone(now, s.options.log)) s.drop_owner();
-        if (s.run && s.lease.is_over(now)) s.drop_run("its launcher is silent");
-        if (!s.leaving) s.door.keep_in_touch(now);
-        if (s.run) s.needed = now;
-        if (!s.run) s.last_scene.wait(now);
-        s.show_figures(now);
-        s.tell_left_out(now);
-        if (s.options.patience && now - s.needed > *s.options.patience) {
-            s.options.log("nobody needs it any more");
-            break;
+    int failed = 0;  // turns, one after the other
+    for (bool on = true; on;) {
+        try {
+            on = s.turn(stop);
+            failed = 0;
+        } catch (const std::exception& error) {
+            if (++failed == most_failed_turns) throw;
+            s.survive(error);
         }
     }
     if (s.run) s.drop_run("this host is stopping");
     s.tell_left_out(Clock::now() + std::chrono::minutes(2));  // all that there is to tell
+}
+
+// False: it has ended.
+bool Host::Service::turn(const std::atomic<bool>& stop) {
+    const auto now = Clock::now();
+    if (stop && (!leaving || !leaving->for_good)) leave(now, true);
+    if (leaving && gone(now)) {
+        if (leaving->for_good) return false;
+        if (run) drop_run("it was told to leave it");
+        leaving.reset();
+    }
+    const auto readable = wait();
+    if (readable.replies) forward_replies();
+    if (readable.door) {
+        door.let_in();
+        while (auto frames = door.receive(Clock::now())) arrived(std::move(*frames));
+    }
+    look_at_arriving();
+    look_at_ending();
+    door.go_on(now);
+    if (readable.gateway) forward_asks();
+    if (peers && (readable.peers || peers->due(now))) peers->tick(now);
+    if (readable.news || (run && !run->serving())) advance();
+    if (readable.news) tell_found(), tell_failures();
+    if (rights.owner_is_gone(now, options.log)) drop_owner();
+    if (run && lease.is_over(now)) drop_run("its launcher is silent");
+    if (!leaving) door.keep_in_touch(now);
+    if (run) needed = now;
+    if (!run) last_scene.wait(now);
+    show_figures(now);
+    tell_left_out(now);
+    if (options.patience && now - needed > *options.patience) {
+        options.log("nobody needs it any more");
+        return false;
+    }
+    return true;
+}
+
+// What finds no memory, or a call of the system's that fails, costs the run: what it was at may be half done.
+void Host::Service::survive(const std::exception& error) {
+    const auto why = words_of(error);
+    if (!run) return options.log({LogLevel::warning, "something was left undone: " + why});
+    door.send(launcher, Type::broken, run->id(), Fields{}.set("text", why));
+    drop_run(why);
 }
 
 bool Host::hangs() const { return !service_->background.done_within(goodbye_deadline); }

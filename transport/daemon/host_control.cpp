@@ -313,8 +313,7 @@ PlaceThreads::SoFar Host::Service::so_far() const {
 }
 
 void Host::Service::show_figures(Time now) {
-    if (now - told_figures < std::chrono::milliseconds(250)) return;
-    told_figures = now;
+    if (!shown.are_old(now)) return;
     DaemonFigures next = figures;
     next.places = options.places;
     next.serves = run != nullptr, next.leaves = leaving.has_value();
@@ -326,8 +325,7 @@ void Host::Service::show_figures(Time now) {
     if (next.ended.places.empty()) next.ended.places.emplace_back();
     auto& places = next.ended.places.front();
     places.lived_ns += more.lived_ns, places.waited_ns += more.waited_ns, places.idle_ns += more.idle_ns;
-    const std::lock_guard lock(shown_mutex);
-    shown = std::move(next);
+    shown.show(std::move(next), now);
 }
 
 void Host::Service::look_at_ending() {

@@ -1,11 +1,12 @@
 // The parts of a host. For the .cpp files of hosts.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "transport/daemon/host_rights.hpp"
 #include "transport/daemon/hosted_run.hpp"
 #include "transport/daemon/peer_connections.hpp"
+#include "transport/daemon/shown_figures.hpp"
 #include "transport/store/blob_cache.hpp"
 #include "transport/wire/lease.hpp"
 #include "transport/wire/machine.hpp"
@@ -82,9 +84,7 @@ struct Host::Service {
     Lease lease{std::chrono::milliseconds(400), std::chrono::seconds(4), std::chrono::seconds(12)};
     std::uint64_t given = 0, answered = 0;  // asks of others
     DaemonFigures figures;                  // of runs that have ended, and how many began
-    Time told_figures{};
-    mutable std::mutex shown_mutex;
-    DaemonFigures shown;
+    ShownFigures shown;
     Time needed{};  // last, by anyone
 
     // Leaving: told to stop, the launcher gives no more work, what was given is answered, it says farewell.
@@ -100,6 +100,8 @@ struct Host::Service {
     Service(Options given, const Registry& kinds);
     Options bounded(Options wanted);
     HostDoor::Options door_options() const;
+    bool turn(const std::atomic<bool>& stop);
+    void survive(const std::exception& error);
     void arrived(Frames frames);
     void damaged(const std::string& route);
     void work(const packet::Header& header, Frames frames);
