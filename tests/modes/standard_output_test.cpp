@@ -54,6 +54,7 @@ std::map<std::string, Words> printing(const test::Folder& folder, const std::str
             {"clean", {}},
             {"bench-hosts", {}},
             {"film", {}},
+            {"view", {}},
             {"session", {graph, "--json", "--size", "8x8", "-o", folder / "session.exr"}},
             {"predict", {folder / "picture.run.json", "--places", "2"}},
             {"scene", {"info", test::graph_file("cornell_box.pbrt")}},

@@ -192,6 +192,45 @@ try {
     await report_dark.waitForSelector("text=/is lost/");
     await shot(report_dark, "report-dark-600");
 
+    // The finished picture by itself, beside its cleaned one: wiped over, in turns, and how far they are apart.
+    const view = start("lightnet", ["view", join(folder, "y.exr"), join(folder, "y.clean.exr")]);
+    const viewed = await open((await view.hears(/(http:\S+)/))[1]);
+    await viewed.getByTestId("wipe").waitFor();
+    for (let i = 0; i < 100 && sum(await pixels(viewed)) <= 128 * 128 * 255; ++i) await pause(50);
+    for (const from of [0, 0.5, 1]) {
+        await viewed.getByTestId("wipe").fill(String(from));
+        await pause(400);
+        const ours = await pixels(viewed);
+        const wanted = noisy.map((value, i) => ((i / 4) % 128 < from * 128 ? quiet[i] : value));
+        const differing = ours.filter((value, i) => value !== wanted[i]).length;
+        assert.equal(differing, 0, `wiped to ${from}: ${differing} of ${ours.length} values differ from the files`);
+    }
+    assert.equal(await viewed.locator("text=End run").count(), 0, "nothing runs");
+    await viewed.getByTestId("wipe").fill("0.5");
+    await pause(300);
+    await shot(viewed, "view-light-1400");
+    await viewed.getByTestId("difference").check();
+    await pause(400);
+    const apart = await pixels(viewed);
+    assert(sum(apart) > 128 * 128 * 255 && sum(apart) < sum(noisy), "the difference is small, and there");
+    await viewed.getByTestId("difference").uncheck();
+    await viewed.getByTestId("flicker").check();
+    const turns = new Set();
+    for (let i = 0; i < 12; ++i, await pause(150)) turns.add(sum(await pixels(viewed)));
+    assert.equal(turns.size, 2, "two pictures take turns");
+    await viewed.getByTestId("flicker").uncheck();
+    const own = await viewed.getByTestId("picture").boundingBox();
+    await viewed.mouse.click(own.x + own.width * 0.4, own.y + own.height * 0.6);
+    await viewed.waitForSelector('[data-testid="explained"] pre');
+    assert.match(await viewed.getByTestId("explained").textContent(), /Pixel 51, 76.*from its first 64 of 256 samples/s);
+    const small = await open((await view.hears(/(http:\S+)/))[1], { viewport: { width: 600, height: 900 }, colorScheme: "dark" });
+    await small.getByTestId("wipe").waitFor();
+    await pause(1000);
+    assert(await small.evaluate(() => document.documentElement.scrollWidth) <= 600, "nothing sticks out of the view");
+    await shot(small, "view-dark-600");
+    view.child.kill("SIGINT");
+    assert.equal(await view.ended, 0, view.said);
+
     // A session: its page moves the camera and sets parameters, and what the launcher writes is what a fresh run would.
     const session = start("lightnet", ["session", graph, "--watch", "--threads", "1", "--size", "96x96", "--samples", "4",
         "-o", join(folder, "s.exr"), "--json"]);

@@ -52,6 +52,7 @@ JsonTree params_json(const Node& node) {
 }
 
 JsonTree nodes_json(const WatchedRun& run) {
+    if (run.graph.nodes.empty()) return JsonTree::list();  // of a picture that nobody knows the graph of
     const auto layers = layers_of(run.graph, run.registry);
     auto all = JsonTree::list();
     for (std::size_t node = 0; node < run.graph.nodes.size(); ++node) {
@@ -69,6 +70,7 @@ JsonTree nodes_json(const WatchedRun& run) {
 
 JsonTree edges_json(const WatchedRun& run) {
     auto all = JsonTree::list();
+    if (run.graph.nodes.empty()) return all;
     for (const auto& edge : asking_edges(run.graph, layers_of(run.graph, run.registry), run.registry))
         all.push_back({edge.from, edge.to});
     return all;
@@ -161,9 +163,22 @@ JsonTree forecast_json(const ForecastCurve& curve) {
     return {{"per_host", curve.per_host}, {"places", curve.places}, {"seconds", curve.seconds}, {"rows", rows}};
 }
 
+void add_viewed(JsonTree& hello, const Viewed& viewed) {
+    hello["viewed"] = true;
+    hello["facts"] = JsonTree::list();
+    for (const auto& [what, text] : viewed.facts) hello["facts"].push_back({what, text});
+    if (!viewed.other) return;
+    const auto& other = *viewed.other;
+    auto colours = JsonTree::list(), gains = JsonTree::list();
+    for (const auto& colour : other.colours) colours.push_back(colour ? static_cast<int>(*colour) : -1);
+    for (const Rgb& gain : other.gains) gains.push_back({gain.r, gain.g, gain.b});
+    hello["other"] = {{"file", other.file}, {"beauty", other.beauty}, {"colours", colours}};
+    hello["other"]["gains"] = other.gains.empty() ? JsonTree(nullptr) : std::move(gains);
+}
+
 }  // namespace
 
-std::string hello_json(const WatchedRun& run) {
+std::string hello_json(const WatchedRun& run, const Viewed* viewed) {
     const auto work = run.format.work();
     auto colours = JsonTree::list();
     for (const std::size_t k : run.format.views()) {
@@ -188,6 +203,7 @@ std::string hello_json(const WatchedRun& run) {
         for (const auto& layer : run.format.layers)
             colours.push_back({{"name", "clean." + layer}, {"layer", false}, {"fact", false}, {"gain", {1, 1, 1}}});
     }
+    if (viewed) add_viewed(hello, *viewed);
     hello["colours"] = std::move(colours);
     return sorted_text({{"hello", std::move(hello)}});
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/film/film.hpp"
@@ -38,8 +39,21 @@ struct WatchedState {
     ForecastCurve forecast{};              // of a run that is over
 };
 
+/// A finished picture that is looked at, where nothing runs. A value.
+struct Viewed {
+    /// Another one, to be compared with. Its colours stand behind those of the picture.
+    struct Other {
+        std::string file;
+        std::size_t beauty = 0;                           // number of that colour
+        std::vector<std::optional<std::size_t>> colours;  // for each of the picture's own: that of the same name
+        std::vector<Rgb> gains;                           // of its layers; empty: they are others than the picture's
+    };
+    std::vector<std::pair<std::string, std::string>> facts;  // what its file says: what, and how much
+    std::optional<Other> other;
+};
+
 /// {"hello": {…}}
-std::string hello_json(const WatchedRun& run);
+std::string hello_json(const WatchedRun& run, const Viewed* viewed = nullptr);
 /// {"t": …, …}. With more than a hundred places, a row is a host; with more than a hundred hosts, a hundred are named,
 /// without their machines, those that are lost first, and one entry ("rest") is the sum of the others.
 std::string state_json(const WatchedState& state, const Graph& graph);

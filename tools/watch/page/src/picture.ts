@@ -1,5 +1,5 @@
 // The picture as floats, and how it becomes what is seen: the same arithmetic, step by step, as in `lightnet remix`.
-import type { Hello } from "./types";
+import type { Hello, Other } from "./types";
 
 export type Rgb = [number, number, number];
 
@@ -9,6 +9,8 @@ export interface View {
     gains: Rgb[]; // of the layers
     stops: number;
     cleaned: number; // the part of the width, from the left, from which on layers are without noise; 1: nowhere
+    mixed?: number[]; // what each layer counts, times its own gain; for the other picture
+    difference?: boolean; // from the other picture, without its sign
 }
 
 export class Picture {
@@ -20,7 +22,8 @@ export class Picture {
     readonly cleaned: number; // the first colour of layers without noise
     data: Float32Array; // pixel by pixel, colour by colour
     kept: Float32Array | null = null; // an earlier one, to be compared with
-    wipe = 0; // the part of the width, from the left, that shows the one that was kept
+    wipe = 0; // the part of the width, from the left, that shows the one that was kept, or the other one
+    private other: Other | null;
     private levels: Float32Array;
     private first = new Uint8Array(4097); // the level at the beginning of each part of 0 … 1
 
@@ -30,6 +33,7 @@ export class Picture {
         this.colours = hello.colours.length;
         this.layers = hello.colours.flatMap((colour, k) => (colour.layer ? [k] : []));
         this.cleaned = hello.cleaned ?? 0;
+        this.other = hello.other ?? null;
         this.facts = hello.colours.map((colour) => colour.fact);
         this.data = new Float32Array(width * height * this.colours * 3);
         this.levels = Float32Array.from([...hello.levels, Infinity]);
@@ -74,6 +78,30 @@ export class Picture {
 
     /// Linear, before exposure.
     at(pixel: number, view: View): Rgb {
+        if (this.other && view.difference) {
+            const [own, other] = [this.own(pixel, view), this.of_other(this.other, pixel, view)];
+            return own.map((value, c) => Math.abs(Math.fround(value - other[c]))) as Rgb;
+        }
+        if (this.other && pixel % this.width < this.wipe * this.width) return this.of_other(this.other, pixel, view);
+        return this.own(pixel, view);
+    }
+
+    /// Of the other picture: the layer of that name, and the sum with the same gains where it has the same layers.
+    private of_other({ beauty, colours, gains }: Other, pixel: number, view: View): Rgb {
+        const mixed = view.mixed?.some((part) => part !== 1) && gains !== null;
+        const wanted = view.colours ? view.colours.map((k) => colours[k]) : mixed ? this.layers.map((k) => colours[k]) : [beauty];
+        const sum: Rgb = [0, 0, 0];
+        wanted.forEach((colour, i) => {
+            for (let c = 0; c < 3 && colour >= 0; ++c) {
+                const value = this.data[(pixel * this.colours + colour) * 3 + c];
+                const gain = mixed && !view.colours ? Math.fround(Math.fround(gains![i][c]) * view.mixed![i]) : 1;
+                sum[c] = i === 0 ? Math.fround(gain * value) : Math.fround(sum[c] + Math.fround(gain * value));
+            }
+        });
+        return sum.map((value) => (Number.isFinite(value) ? value : 0)) as Rgb;
+    }
+
+    private own(pixel: number, view: View): Rgb {
         const { colours } = this;
         const data = this.kept && pixel % this.width < this.wipe * this.width ? this.kept : this.data;
         const cleaned = pixel % this.width >= view.cleaned * this.width;

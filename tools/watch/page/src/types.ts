@@ -17,6 +17,14 @@ export interface GraphNode {
     picture: number[]; // the colours that add up to its picture
 }
 
+/// Another picture of the same size, to be compared with.
+export interface Other {
+    file: string;
+    beauty: number; // its colour
+    colours: number[]; // for each of the picture's own: the one of that name, -1: it has none
+    gains: [number, number, number][] | null; // of its layers; null: they are not those of the picture
+}
+
 export interface Hello {
     graph: string;
     output: string;
@@ -28,6 +36,9 @@ export interface Hello {
     nodes: GraphNode[];
     edges: [number, number][]; // who asks whom
     edited: boolean; // of a session, which goes on when a picture is finished
+    viewed?: boolean; // a finished picture: nothing runs
+    facts?: [string, string][]; // what its file says
+    other?: Other;
 }
 
 /// Looks at which it was busy, asking, waiting, idle.
