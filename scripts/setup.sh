@@ -27,6 +27,7 @@ packages_of_tests=(
     iproute2                                            # network namespaces: hosts of their own
     openssh-client openssh-server python3-yaml          # hosts by ssh; what deploys farms
     libnoise-dev libgsl-dev                             # what examples wrap
+    python3-nbclient python3-ipykernel                  # notebooks
     slurm-client slurmctld slurmd munge                 # a queue
 )
 
