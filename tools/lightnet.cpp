@@ -1,11 +1,11 @@
 // The launcher: the one place where all rooms meet.
 #include <exception>
 #include <iostream>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/base/words_of.hpp"
 #include "lua/custom.hpp"
 #include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
@@ -42,11 +42,8 @@ int perform(const std::vector<std::string>& words) try {
 } catch (const lightnet::UserError& error) {  // in what the user has settled
     std::cerr << error.what() << '\n';
     return lightnet::exit_code::usage;
-} catch (const std::bad_alloc&) {  // whose own words are none
-    std::cerr << "lightnet: there is not enough memory\n";
-    return lightnet::exit_code::failed;
 } catch (const std::exception& error) {
-    std::cerr << "lightnet: " << error.what() << '\n';
+    std::cerr << "lightnet: " << lightnet::words_of(error) << '\n';
     return lightnet::exit_code::failed;
 }
 

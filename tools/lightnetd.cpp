@@ -16,6 +16,7 @@
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
 #include "core/base/this_machine.hpp"
+#include "core/base/words_of.hpp"
 #include "lua/custom.hpp"
 #include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
@@ -166,7 +167,7 @@ int perform_in_words(const std::vector<std::string>& typed, lightnet::StandardOu
         log.give_up("lightnetd: there is not enough memory to serve");
         return lightnet::exit_code::failed;
     } catch (const std::exception& error) {
-        log.give_up(std::string("lightnetd: ") + error.what());
+        log.give_up("lightnetd: " + lightnet::words_of(error));
         return lightnet::exit_code::failed;
     }
 }

@@ -6,7 +6,6 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -24,7 +23,8 @@ struct Stat {
 
 Stat own_stat() {
     std::ifstream file("/proc/self/stat");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::string text;
+    std::getline(file, text, '\0');  // a name may have several lines; what can't be read is as good as empty
     const auto end = text.rfind(')');
     Stat stat;
     if (end == std::string::npos) return stat;

@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <ios>
+#include <new>
+#include <system_error>
+
 #include "core/base/words_of.hpp"
 
 namespace lightnet::error_test {
@@ -28,6 +33,11 @@ TEST(Error, NamesThePlaceFirst) {
 
 TEST(Error, OfTheLibraryIsToldInWords) {
     EXPECT_EQ(words_of(std::bad_alloc()), "there is not enough memory");
+    const auto full = std::make_error_code(std::errc::no_space_on_device);
+    EXPECT_EQ(words_of(std::filesystem::filesystem_error("cannot create directory", "/a/b", full)),
+              "/a/b: No space left on device");
+    EXPECT_EQ(words_of(std::ios_base::failure("basic_filebuf::underflow", full)),
+              "a file can't be read or written: No space left on device");
     EXPECT_EQ(words_of(Error("a", "b")), "a: b");
     const std::system_error no_thread(std::make_error_code(std::errc::resource_unavailable_try_again));
     EXPECT_THAT(words_of(no_thread), testing::StartsWith("the system gives no more threads; a higher limit"));

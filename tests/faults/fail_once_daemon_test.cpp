@@ -36,7 +36,7 @@ protected:
             expect_an_end(daemon);
         }
         if (what_failed(folder).empty()) return false;
-        EXPECT_EQ((said + said_by_runs).find("std::"), std::string::npos) << "that is no sentence";
+        EXPECT_EQ(names_of_the_library(said + said_by_runs), "") << "that is no sentence";
         EXPECT_EQ(left_behind(folder, said), "");
         if (HasFailure()) ADD_FAILURE() << said << said_by_runs << "\ncalled by " << what_failed(folder);
         return true;

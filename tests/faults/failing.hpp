@@ -59,6 +59,13 @@ inline std::string what_failed(const Folder& folder) {
     return note.substr(before, note.find('\0', before) - before);
 }
 
+/// Names of the library's classes, which are no words for people; "": there is none in what was said.
+inline std::string names_of_the_library(const std::string& said) {
+    for (const std::string name : {"std::", "basic_", "filesystem error"})
+        if (said.find(name) != std::string::npos) return name;
+    return "";
+}
+
 /// What lies there that should not, as a complaint: files that were being written, and what is temporary and was not
 /// `said`.
 inline std::string left_behind(const Folder& folder, const std::string& said) {

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <optional>
 #include <ostream>
-#include <system_error>
 
 #include "core/base/build_info.hpp"
 #include "core/base/joined.hpp"
-#include "core/base/spare_threads.hpp"
 #include "core/base/suggestion.hpp"
+#include "core/base/words_of.hpp"
 #include "core/readers/read_scene.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/words/command_line.hpp"
@@ -138,17 +137,12 @@ int Launcher::operator()(const std::vector<std::string>& arguments) const {
     } catch (const UserError& error) {
         err << error.what() << '\n';
         return exit_code::usage;
-    } catch (const std::system_error& error) {
-        const bool threads = error.code() == std::errc::resource_unavailable_try_again;
-        err << "lightnet: "
-            << (threads ? std::string("the system gives no more threads; ") + more_threads_help : error.what()) << '\n';
-        return exit_code::failed;
     } catch (const std::bad_alloc&) {
         err << "lightnet: there is not enough memory for what was asked of '"
             << (arguments.empty() ? "" : arguments.front()) << "'\n";
         return exit_code::failed;
     } catch (const std::exception& error) {
-        err << "lightnet: " << error.what() << '\n';
+        err << "lightnet: " << words_of(error) << '\n';
         return exit_code::failed;
     }
 }

@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/json_tree.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/run/assembly/job.hpp"
 #include "core/run/assembly/load_scene.hpp"
@@ -102,7 +103,7 @@ void LiveExplainer::work() {
         } catch (const ExplainerEnds&) {
             return;
         } catch (const std::exception& error) {
-            reply(explained(wish, {{"error", error.what()}}));
+            reply(explained(wish, {{"error", words_of(error)}}));
         }
         lock.lock();
     }
