@@ -83,12 +83,42 @@ TEST(Obj, TakesColoursOfVertices) {
     EXPECT_TRUE(std::holds_alternative<VertexColour>(texture.pattern));
 }
 
+TEST(Obj, MayHaveColoursByXyz) {
+    const auto colour = [](const std::string& statement) {
+        const auto scene = with_material(statement);
+        const auto& texture = scene.textures[model_of<DiffuseMaterial>(scene).reflectance];
+        return texture.scale;
+    };
+    const Rgb grey = colour("Kd xyz 0.475235 0.5 0.544415\n");
+    for (const float channel : {grey.r, grey.g, grey.b}) EXPECT_NEAR(channel, .5f, 1e-4);
+    EXPECT_THAT(warnings_of(with_material("Kd xyz 0 0.5 0\n")), HasSubstr("outside of what sRGB can show"));
+}
+
+TEST(Obj, MayNameVerticesThatComeLater) {
+    const auto scene =
+        read_as("a.obj",
+                "usemtl red\nf 1/1/1 2/2/1 3/3/1\nusemtl blue\nv 9 9 9\nf 4 3 -1\nusemtl green\nf 2 3 4\n"
+                "v 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n");
+    ASSERT_EQ(scene.shapes.size(), 3u);
+    const auto shape = [&](const std::string& material) {
+        for (const auto& one : scene.shapes)
+            if (scene.materials[one.material].name == material) return std::get<Mesh>(one.geometry);
+        return Mesh{};
+    };
+    EXPECT_EQ(shape("red").positions, (std::vector<Vec3>{{9, 9, 9}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(shape("red").normals[0], (Vec3{0, 0, 1}));
+    EXPECT_EQ(shape("red").uvs[1], (Vec2{1, 0}));
+    EXPECT_EQ(shape("blue").positions, (std::vector<Vec3>{{0, 0, 1}, {0, 1, 0}, {9, 9, 9}})) << "-1 was the first";
+    EXPECT_EQ(shape("green").triangles.size(), 1u);
+    EXPECT_THAT(errors_as("a.obj", "f 1 2 4\n" + corners), HasSubstr("a.obj:1: index 4 is out of range: there are"));
+}
+
 TEST(Obj, SaysWhatIsWrongAndWhere) {
     const std::string errors =
         errors_as("a.obj", "v 0 0 zero\nv 1 0 0\nv 1 inf 0\nf 1 2 9\nf 0 1 2\n\nf 1 x 2\nvn 1 2\n");
     EXPECT_THAT(errors, HasSubstr("a.obj:1: a finite number expected, not 'zero'"));
     EXPECT_THAT(errors, HasSubstr("a.obj:3: a finite number expected, not 'inf'"));
-    EXPECT_THAT(errors, HasSubstr("a.obj:4: index 9 is out of range: so far there are 3 vertices"));
+    EXPECT_THAT(errors, HasSubstr("a.obj:4: index 9 is out of range: there are 3 vertices"));
     EXPECT_THAT(errors, HasSubstr("a.obj:5: index 0 is out of range"));
     EXPECT_THAT(errors, HasSubstr("a.obj:7: an index expected, not 'x'"));
     EXPECT_THAT(errors, HasSubstr("a.obj:8: a normal needs three numbers"));

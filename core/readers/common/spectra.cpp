@@ -11,6 +11,12 @@
 #include "core/base/error.hpp"
 
 namespace lightnet {
+
+std::array<double, 3> rgb_of_xyz(double x, double y, double z) {
+    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
+            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
+}
+
 namespace {
 
 /// One lobe of the fits of Wyman, Sloan & Shirley 2013, "Simple Analytic Approximations to the CIE XYZ Color Matching
@@ -35,12 +41,6 @@ constexpr std::array<double, 41> daylight{
     104.79, 107.69, 104.41, 104.05, 100.00, 96.33, 95.79,  88.69,  90.01,  89.60,  87.70,  83.29,  83.70,  80.03,
     80.21,  82.28,  78.28,  69.72,  71.61,  74.35, 61.60,  69.89,  75.09,  63.59,  46.42,  66.81,  63.38};
 
-/// XYZ to linear sRGB, IEC 61966-2-1.
-std::array<double, 3> to_rgb(double x, double y, double z) {
-    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
-}
-
 /// Linear sRGB of a spectrum, without any scale.
 template <class Spectrum>
 std::array<double, 3> project(const Spectrum& spectrum) {
@@ -51,7 +51,7 @@ std::array<double, 3> project(const Spectrum& spectrum) {
         const double value = spectrum(wavelength, daylight[i]);
         x += value * match[0], y += value * match[1], z += value * match[2];
     }
-    return to_rgb(x, y, z);
+    return rgb_of_xyz(x, y, z);
 }
 
 /// Linear sRGB of a spectrum, with D65 as {1, 1, 1}.
@@ -125,7 +125,7 @@ constexpr std::array<NamedLight, 16> lights{{{"stdillum-D65", 0.31272, 0.32903},
                                              {"illum-acesD60", 0.32168, 0.33767}}};
 
 LightColour of_chromaticity(double x, double y) {
-    const auto c = to_rgb(x / y, 1, (1 - x - y) / y);
+    const auto c = rgb_of_xyz(x / y, 1, (1 - x - y) / y);
     return {with_luminance_one({float(c[0]), float(c[1]), float(c[2])})};
 }
 
@@ -161,7 +161,7 @@ LightColour mean_light_of_lines(std::span<const SpectrumPoint> spectrum) {
         x += value * match[0], y += value * match[1], z += value * match[2];
         whole += match[1];
     }
-    return light_of_sums(to_rgb(x, y, z), whole);
+    return light_of_sums(rgb_of_xyz(x, y, z), whole);
 }
 
 LightColour blackbody_colour(float kelvin) {

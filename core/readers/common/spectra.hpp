@@ -1,6 +1,7 @@
 // Spectra as linear RGB: named metals, glasses, black bodies, measured tables.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,9 @@ struct SpectrumPoint {
     float wavelength = 0;  // nanometres, ascending
     float value = 0;
 };
+
+/// CIE 1931 XYZ to linear sRGB (IEC 61966-2-1); below 0 where sRGB can't show it.
+std::array<double, 3> rgb_of_xyz(double x, double y, double z);
 
 /// Light, and what light meets (a reflectance, an index of refraction, an absorption). One spectrum is another RGB as
 /// the one than as the other, so they are two types, and who takes the one for the other does not compile.

@@ -23,6 +23,10 @@ public:
 
     /// The next line that says anything; none: the end.
     bool next();
+    /// What rest() would give, which stays.
+    std::string_view left() const { return left_; }
+    /// Goes on with words of a line that was read before, as long as they are there.
+    void begin(std::string_view words, int line) { left_ = words, line_ = line; }
     /// The next word of the line; "": there is none.
     std::string_view word();
     /// What is left of the line, without spaces at its ends.

@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "core/readers/common/spectra.hpp"
 #include "core/readers/obj/elsewhere.hpp"
 #include "core/readers/obj/lines.hpp"
 
@@ -104,18 +105,29 @@ private:
     std::optional<Rgb> colour() {
         auto ahead = lines_;
         const auto first = ahead.word();
-        if (first == "spectral" || first == "xyz") {
+        if (first == "spectral") {
             report_.warn(
                 lines_.where(),
                 fmt::format("colours by '{}' are left out: what has one looks as if the line were not there", first));
             return std::nullopt;
         }
+        const bool is_xyz = first == "xyz";
+        if (is_xyz) lines_ = ahead;
         const auto r = lines_.number(report_), g = r ? lines_.number(report_) : r, b = g ? lines_.number(report_) : g;
         if (!r || (g && !b)) {
             report_.error(lines_.where(), "a colour needs three numbers");
             return std::nullopt;
         }
+        if (is_xyz) return from_xyz(*r, g.value_or(*r), b.value_or(*r));
         return Rgb{*r, g.value_or(*r), b.value_or(*r)};
+    }
+
+    Rgb from_xyz(float x, float y, float z) {
+        const auto rgb = rgb_of_xyz(double{x}, double{y}, double{z});
+        const auto channel = [&](std::size_t c) { return float(std::max(0.0, rgb[c])); };
+        if (std::ranges::min(rgb) < -1e-3)
+            report_.warn(lines_.where(), "a colour by 'xyz' is outside of what sRGB can show: its nearest is taken");
+        return {channel(0), channel(1), channel(2)};
     }
 
     std::optional<Map> map(const std::string& word) {

@@ -45,6 +45,7 @@ public:
             end_if_unwanted();
             statement(lines_.word());
         }
+        finish_waiting();
         Model model;
         for (auto& part : parts_)
             if (!part.part.mesh.triangles.empty()) model.parts.push_back(finished(std::move(part)));
@@ -58,6 +59,18 @@ private:
         Part part;
         std::unordered_map<Corner, std::uint32_t, Mix> vertices;
         bool normals = false, uvs = false;
+    };
+    /// How many there are of each: indices below 0 count from there.
+    struct Counts {
+        std::size_t positions = 0, uvs = 0, normals = 0;
+    };
+    /// A face of vertices that come later, and what held where it stands.
+    struct Waiting {
+        std::string words;
+        SourceLine where;
+        std::string object, material;
+        bool smooth = false;
+        Counts counts;
     };
 
     void statement(std::string_view word) {
@@ -129,27 +142,30 @@ private:
         return std::nullopt;
     }
 
-    /// Of "7", or of "-1" from the end. None: there is no such one.
-    static std::optional<std::uint32_t> place(std::int64_t value, std::size_t count) {
-        const auto size = static_cast<std::int64_t>(count);
-        if (value == 0 || value > size || value < -size) return std::nullopt;
-        return static_cast<std::uint32_t>(value > 0 ? value - 1 : size + value);
+    Counts counts() const { return then_.value_or(Counts{positions_.size(), uvs_.size(), normals_.size()}); }
+
+    /// Of "7", or of "-1" from the `count`-th on. None: there is no such one among `all`.
+    static std::optional<std::uint32_t> place(std::int64_t value, std::size_t count, std::size_t all) {
+        const auto before = static_cast<std::int64_t>(count), size = static_cast<std::int64_t>(all);
+        if (value == 0 || value > size || value < -before) return std::nullopt;
+        return static_cast<std::uint32_t>(value > 0 ? value - 1 : before + value);
     }
 
     /// None: reported.
     std::optional<std::uint32_t> vertex_index(std::string_view digits) {
         const auto value = whole(digits);
-        const auto found = value ? place(*value, positions_.size()) : std::nullopt;
-        if (value && !found)
-            report_.error(lines_.where(), fmt::format("index {} is out of range: so far there are {} vertices", *value,
-                                                      positions_.size()));
+        const auto found = value ? place(*value, counts().positions, positions_.size()) : std::nullopt;
+        comes_later_ = value && !found && *value > 0 && !then_;
+        if (value && !found && !comes_later_)
+            report_.error(lines_.where(),
+                          fmt::format("index {} is out of range: there are {} vertices", *value, counts().positions));
         return found;
     }
 
     /// A face is there without them, too.
-    std::uint32_t index_or_none(std::string_view digits, std::size_t count, const char* of) {
+    std::uint32_t index_or_none(std::string_view digits, std::size_t count, std::size_t all, const char* of) {
         const auto value = whole(digits);
-        const auto found = value ? place(*value, count) : std::nullopt;
+        const auto found = value ? place(*value, count, all) : std::nullopt;
         if (value && !found)
             report_.warn(lines_.where(), fmt::format("faces name {} that are not there, and go without", of));
         return found.value_or(none);
@@ -168,17 +184,21 @@ private:
         if (!position) return std::nullopt;
         corner.position = *position;
         if (const auto digits = part(); !digits.empty())
-            corner.uv = index_or_none(digits, uvs_.size(), "texture coordinates");
+            corner.uv = index_or_none(digits, counts().uvs, uvs_.size(), "texture coordinates");
         if (const auto digits = part(); !digits.empty())
-            corner.normal = index_or_none(digits, normals_.size(), "normals");
+            corner.normal = index_or_none(digits, counts().normals, normals_.size(), "normals");
         return corner;
     }
 
     void face() {
+        const auto words = lines_.left();
         corners_.clear();
+        comes_later_ = false;
         Open& open = this->open();
         for (auto word = lines_.word(); !word.empty() && word.front() != '#'; word = lines_.word()) {
             const auto read = corner(word);
+            if (comes_later_)
+                return waiting_.push_back({std::string(words), lines_.where(), object_, material_, smooth_, counts()});
             if (!read) return;
             corners_.push_back(vertex_of(open, *read));
         }
@@ -188,6 +208,18 @@ private:
         triangulate(mesh.positions, corners_, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             mesh.triangles.push_back({a, b, c});
         });
+    }
+
+    /// Once all vertices are there.
+    void finish_waiting() {
+        for (auto& face : std::exchange(waiting_, {})) {
+            if (report_.full()) return;
+            lines_.begin(face.words, face.where.line);
+            object_ = std::move(face.object), material_ = std::move(face.material), smooth_ = face.smooth;
+            open_ = nullptr;
+            then_ = face.counts;
+            this->face();
+        }
     }
 
     Open& open() {
@@ -233,6 +265,9 @@ private:
     std::map<Key, std::size_t> index_;
     Open* open_ = nullptr;  // one of parts_; null: to be looked up
     std::vector<std::uint32_t> corners_;
+    bool comes_later_ = false;  // the vertex that a face has named last
+    std::vector<Waiting> waiting_;
+    std::optional<Counts> then_;  // where a waiting face stands; none: none is read
 };
 
 }  // namespace
