@@ -94,14 +94,13 @@ private:
         }
         return std::min(done, length);
     }
-    void check_pixels() const {
+    void check_pixels() {
         const std::int64_t width = std::int64_t{window_[2]} - window_[0] + 1;
         const std::int64_t height = std::int64_t{window_[3]} - window_[1] + 1;
         if (width <= 0 || height <= 0) return;
         const double pixels = double(width) * double(height), bytes = double(size_);
-        const bool plausible = blocks_ ? pixels <= pixels_per_byte_in_blocks * bytes
-                                       : pixels * std::max(pixel_bytes_, 1.0) <= bytes_per_byte * bytes;
-        if (!plausible)
+        claimed_ += blocks_ ? pixels / pixels_per_byte_in_blocks : pixels * std::max(pixel_bytes_, 1.0) / bytes_per_byte;
+        if (claimed_ > bytes)
             throw Error("EXR: " + std::to_string(size_) + " bytes can't be " + std::to_string(width) + " x " +
                         std::to_string(height) + " pixels");
     }
@@ -111,6 +110,7 @@ private:
     std::array<std::int32_t, 4> window_{};
     bool has_window_ = false, blocks_ = true;
     double pixel_bytes_ = 0;  // of all channels
+    double claimed_ = 0;      // bytes of the file that all parts so far take at least
 };
 
 }  // namespace

@@ -7,9 +7,12 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
 #include <ImfMatrixAttribute.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
@@ -18,6 +21,7 @@
 #include <algorithm>
 #include <cstring>
 #include <list>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -108,7 +112,8 @@ void insert_matte(Imf::Header& header, const PictureMatte& matte) {
     insert_text(header, key + "/manifest", matte.manifest);
 }
 
-Imf::Header header_of(const Picture& picture) {
+/// Where the picture lies, how it is packed, and which colours it has: what parts of one file have in common.
+Imf::Header bare_header_of(const Picture& picture) {
     const auto box = [](std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height) {
         const auto left = static_cast<int>(x), top = static_cast<int>(y);
         return Imath::Box2i({left, top}, {left + static_cast<int>(width) - 1, top + static_cast<int>(height) - 1});
@@ -117,14 +122,20 @@ Imf::Header header_of(const Picture& picture) {
     Imf::Header header(picture.whole_width ? box(0, 0, picture.whole_width, picture.whole_height) : data, data);
     insert_compression(header, picture.storage.compression);
     header.lineOrder() = Imf::INCREASING_Y;
+    // The primaries and the white of BT.709 are the library's own.
+    Imf::addChromaticities(header, Imf::Chromaticities());
+    return header;
+}
+
+Imf::Header header_of(const Picture& picture) {
+    Imf::Header header = bare_header_of(picture);
     const auto insert_names = [&](const char* attribute, const std::vector<PictureLayer>& layers) {
         Imf::StringVector names;
         for (const auto& layer : layers) names.push_back(layer.name);
         if (!names.empty()) header.insert(attribute, Imf::StringVectorAttribute(names));
     };
     insert_notes(header, picture.notes);
-    // The primaries and the white of BT.709 are the library's own; the name is the Color Interop Forum's.
-    Imf::addChromaticities(header, Imf::Chromaticities());
+    // The name is the Color Interop Forum's.
     insert_text(header, colours_attribute, "lin_rec709_scene");
     for (const auto& matte : picture.mattes) insert_matte(header, matte);
     insert_names(layers_attribute, picture.layers);
@@ -134,10 +145,10 @@ Imf::Header header_of(const Picture& picture) {
     return header;
 }
 
-/// The channels of a file that is to be written, and where their numbers are.
+/// The channels of a part that is to be written, and where their numbers are.
 class Channels {
 public:
-    explicit Channels(Imf::Header& header) : header_(header) {}
+    explicit Channels(Imf::Header header) : header_(std::move(header)) {}
 
     void add(const std::string& name, const float* first, std::size_t step) {
         insert(name, Imf::FLOAT, reinterpret_cast<const char*>(first), step);
@@ -156,6 +167,15 @@ public:
             insert(name, Imf::HALF, reinterpret_cast<const char*>(next++), 3 * sizeof(half));
         });
     }
+    void add(const PictureLayer& layer, const PictureStorage& storage) {
+        const auto names = channels_of(layer.name, layer.letters);
+        may_be_half(storage, layer) ? add_halves(names, layer.pixels) : add(names, layer.pixels);
+    }
+    void add(const PictureMatte& matte) {
+        for_matte_channels(
+            matte, [&](const std::string& name, const float* first, std::size_t step) { add(name, first, step); });
+    }
+    Imf::Header& header() { return header_; }
     const Imf::FrameBuffer& buffer() const { return buffer_; }
 
 private:
@@ -167,41 +187,71 @@ private:
                                               step * static_cast<std::size_t>(window.max.x - window.min.x + 1)));
     }
 
-    Imf::Header& header_;
+    Imf::Header header_;
     Imf::FrameBuffer buffer_;
     std::list<std::vector<half>> halves_;  // until they are written
 };
 
+/// What goes into a file, part by part; the first one says all that there is to say.
+std::list<Channels> parts_of(const Picture& picture) {
+    std::list<Channels> parts;
+    std::set<std::string> names;
+    const auto next = [&](const std::string& name) -> Channels& {
+        if (!parts.empty() && !picture.storage.parts) return parts.front();
+        Channels& part = parts.emplace_back(parts.empty() ? header_of(picture) : bare_header_of(picture));
+        if (!picture.storage.parts) return part;
+        std::string free = name;
+        while (!names.insert(free).second) free += "_";
+        part.header().setName(free);
+        part.header().setType(Imf::SCANLINEIMAGE);
+        return part;
+    };
+    Channels& first = next("rgba");
+    first.add(channels_of(""), picture.beauty);
+    if (!picture.alpha.empty()) first.add(alpha_channel, picture.alpha.data(), sizeof(float));
+    if (!picture.samples.empty()) first.add(samples_channel, picture.samples.data(), sizeof(float));
+    for (const auto& layer : picture.layers) next(layer.name).add(layer, {});
+    for (const auto& layer : picture.shown) next(layer.name).add(layer, picture.storage);
+    for (const auto& matte : picture.mattes) next(matte.name).add(matte);
+    return parts;
+}
+
+// The library says nothing where its compressor has no memory, and leaves lines out.
+void expect_complete(std::string_view bytes, int parts) {
+    Written written(bytes);
+    Imf::MultiPartInputFile file(written, 0);
+    for (int part = 0; part < parts; ++part)
+        if (!file.partComplete(part)) throw Error("picture", "it could not be compressed: there is not enough memory");
+}
+
+constexpr int no_threads = 0;  // of OpenEXR's own
+
+void write_parts(Imf::OStream& to, std::list<Channels>& parts, int height) {
+    std::vector<Imf::Header> headers;
+    for (auto& part : parts) headers.push_back(part.header());
+    Imf::MultiPartOutputFile file(to, headers.data(), static_cast<int>(headers.size()), false, no_threads);
+    int number = 0;
+    for (const auto& part : parts) {
+        Imf::OutputPart into(file, number++);
+        into.setFrameBuffer(part.buffer());
+        into.writePixels(height);
+    }
+}
+
 }  // namespace
 
 std::string exr_of(const Picture& picture) {
-    Imf::Header header = header_of(picture);
-    Channels channels(header);
-    channels.add(channels_of(""), picture.beauty);
-    for (const auto& layer : picture.layers) channels.add(channels_of(layer.name, layer.letters), layer.pixels);
-    for (const auto& layer : picture.shown) {
-        const auto names = channels_of(layer.name, layer.letters);
-        may_be_half(picture.storage, layer) ? channels.add_halves(names, layer.pixels)
-                                            : channels.add(names, layer.pixels);
-    }
-    for (const auto& matte : picture.mattes)
-        for_matte_channels(matte, [&](const std::string& name, const float* first, std::size_t step) {
-            channels.add(name, first, step);
-        });
-    if (!picture.alpha.empty()) channels.add(alpha_channel, picture.alpha.data(), sizeof(float));
-    if (!picture.samples.empty()) channels.add(samples_channel, picture.samples.data(), sizeof(float));
-
+    auto parts = parts_of(picture);
     Memory memory;
-    {
-        Imf::OutputFile file(memory, header, 0);  // 0: no threads of OpenEXR's own
-        file.setFrameBuffer(channels.buffer());
+    if (picture.storage.parts) {
+        write_parts(memory, parts, static_cast<int>(picture.height));
+    } else {
+        Imf::OutputFile file(memory, parts.front().header(), no_threads);
+        file.setFrameBuffer(parts.front().buffer());
         file.writePixels(static_cast<int>(picture.height));
     }
-    // The library says nothing where its compressor has no memory, and leaves lines out.
     std::string bytes = memory.take();
-    Written written(bytes);
-    if (!Imf::InputFile(written, 0).isComplete())
-        throw Error("picture", "it could not be compressed: there is not enough memory");
+    expect_complete(bytes, static_cast<int>(parts.size()));
     return bytes;
 }
 

@@ -4,8 +4,9 @@
 #include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
 #include <ImfMatrixAttribute.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
 #include <fmt/format.h>
@@ -15,7 +16,9 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,10 +39,6 @@ constexpr std::uint64_t largest_exr = std::uint64_t{16} << 30;
 
 std::int64_t length(int min, int max) { return std::int64_t{max} - min + 1; }
 
-std::size_t pixels_of(const Imath::Box2i& window) {
-    return static_cast<std::size_t>(length(window.min.x, window.max.x) * length(window.min.y, window.max.y));
-}
-
 // Room is taken for what a file claims to have, so it must be able to have it.
 void expect_plausible(const std::filesystem::path& path) {
     PlainFile file(path, largest_exr);
@@ -56,44 +55,92 @@ void expect_pixels(const Imath::Box2i& window, const std::filesystem::path& path
         throw Error(path.string(), fmt::format("is damaged: there are no {} x {} pixels", width, height));
 }
 
-/// Reads channels of an open file to where they are wanted, all at once.
-class Wanted {
+/// An open file of one part or several, whose channels are those of all parts that have the window of the first. Of
+/// channels with one name that of the first part counts. Throws what OpenEXR does.
+class Parts {
 public:
-    explicit Wanted(Imf::InputFile& file) : file_(file), window_(file.header().dataWindow()) {}
-    // The library writes there, whatever type it is told.
-    void add(const std::string& name, const float* to, std::size_t step) {
-        if (!file_.header().channels().findChannel(name)) throw Error(file_.fileName(), "has no channel " + name);
-        buffer_.insert(name, Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(to), window_, step,
-                                              step * static_cast<std::size_t>(window_.max.x - window_.min.x + 1)));
-    }
-    void read() {
-        file_.setFrameBuffer(buffer_);
-        file_.readPixels(window_.min.y, window_.max.y);
-    }
-    std::size_t pixels() const { return pixels_of(window_); }
+    explicit Parts(const std::filesystem::path& path);
+
+    /// Of the first part: what is said of the picture.
+    const Imf::Header& header() const { return file_.header(0); }
+    bool several() const { return file_.parts() > 1; }
+    /// Null: there is none of that name.
+    const Imf::Channel* channel(const std::string& name) const;
+    bool has_all(const std::vector<std::string>& names) const;
+    std::size_t pixels() const;
+
+    /// The channel is to come to there with read(), a number every `step` bytes. Throws Error where it isn't there.
+    void want(const std::string& name, const float* to, std::size_t step);
+    /// Reads all that is wanted: each part is unpacked once.
+    void read();
 
 private:
-    Imf::InputFile& file_;
-    Imath::Box2i window_;
-    Imf::FrameBuffer buffer_;
+    std::optional<int> part_of(const std::string& channel) const;
+
+    std::filesystem::path path_;
+    Imf::MultiPartInputFile file_;
+    std::vector<Imf::FrameBuffer> wanted_;  // by part
 };
 
-bool has_all(const Imf::ChannelList& channels, const std::vector<std::string>& names) {
-    return std::all_of(names.begin(), names.end(), [&](const auto& name) { return channels.findChannel(name); });
+Parts::Parts(const std::filesystem::path& path)
+    : path_(path), file_(path.c_str(), 0), wanted_(static_cast<std::size_t>(file_.parts())) {}
+
+std::optional<int> Parts::part_of(const std::string& channel) const {
+    for (int part = 0; part < file_.parts(); ++part)
+        if (file_.header(part).dataWindow() == header().dataWindow() &&
+            file_.header(part).channels().findChannel(channel))
+            return part;
+    return std::nullopt;
+}
+
+const Imf::Channel* Parts::channel(const std::string& name) const {
+    const auto part = part_of(name);
+    return part ? file_.header(*part).channels().findChannel(name) : nullptr;
+}
+
+bool Parts::has_all(const std::vector<std::string>& names) const {
+    return std::all_of(names.begin(), names.end(), [&](const auto& name) { return part_of(name).has_value(); });
+}
+
+std::size_t Parts::pixels() const {
+    const auto& window = header().dataWindow();
+    return static_cast<std::size_t>(length(window.min.x, window.max.x) * length(window.min.y, window.max.y));
+}
+
+void Parts::want(const std::string& name, const float* to, std::size_t step) {
+    const auto part = part_of(name);
+    if (!part) throw Error(path_.string(), "has no channel " + name);
+    const auto& window = header().dataWindow();
+    // The library writes there, whatever type it is told.
+    wanted_[static_cast<std::size_t>(*part)].insert(
+        name, Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(to), window, step,
+                               step * static_cast<std::size_t>(window.max.x - window.min.x + 1)));
+}
+
+void Parts::read() {
+    const auto& window = header().dataWindow();
+    for (int part = 0; part < file_.parts(); ++part) {
+        auto& wanted = wanted_[static_cast<std::size_t>(part)];
+        if (wanted.begin() == wanted.end()) continue;
+        Imf::InputPart from(file_, part);
+        from.setFrameBuffer(wanted);
+        from.readPixels(window.min.y, window.max.y);
+        wanted = {};
+    }
 }
 
 // What the channels of a layer end in; the usual letters, where it has none of ours.
-std::string letters_of(const Imf::ChannelList& channels, const std::string& layer) {
+std::string letters_of(const Parts& file, const std::string& layer) {
     for (const char* letters : {usual_letters, letters_of_vectors, letters_of_depths, letters_of_uv})
-        if (has_all(channels, channels_of(layer, letters))) return letters;
+        if (file.has_all(channels_of(layer, letters))) return letters;
     return usual_letters;
 }
 
 // The pixels of a layer, which come with read(); fails if the file lacks a channel of it.
-std::vector<Rgb> wanted_layer(Wanted& wanted, const std::string& layer, const std::string& letters) {
-    std::vector<Rgb> pixels(wanted.pixels());
+std::vector<Rgb> wanted_layer(Parts& file, const std::string& layer, const std::string& letters) {
+    std::vector<Rgb> pixels(file.pixels());
     for_channels(channels_of(layer, letters), pixels,
-                 [&](const std::string& name, const float* first) { wanted.add(name, first, sizeof(Rgb)); });
+                 [&](const std::string& name, const float* first) { file.want(name, first, sizeof(Rgb)); });
     return pixels;
 }
 
@@ -105,12 +152,11 @@ void make_depths_grey(std::vector<PictureLayer>& layers) {
 }
 
 // Empty: the file has no such channel.
-std::vector<float> read_channel(Imf::InputFile& file, const char* name) {
-    if (!file.header().channels().findChannel(name)) return {};
-    Wanted wanted(file);
-    std::vector<float> values(wanted.pixels());
-    wanted.add(name, values.data(), sizeof(float));
-    wanted.read();
+std::vector<float> read_channel(Parts& file, const char* name) {
+    if (!file.channel(name)) return {};
+    std::vector<float> values(file.pixels());
+    file.want(name, values.data(), sizeof(float));
+    file.read();
     return values;
 }
 
@@ -119,30 +165,29 @@ const std::string* text_in(const Imf::Header& header, const std::string& name) {
     return text ? &text->value() : nullptr;
 }
 
-std::uint32_t ranks_of(const std::string& matte, const Imf::ChannelList& channels) {
+std::uint32_t ranks_of(const std::string& matte, const Parts& file) {
     std::uint32_t ranks = 0;
     for (; ranks < most_ranks; ranks += 2) {
         const auto names = matte_channels(matte, ranks / 2);
-        if (!has_all(channels, {names.begin(), names.end()})) break;
+        if (!file.has_all({names.begin(), names.end()})) break;
     }
     return ranks;
 }
 
-std::vector<PictureMatte> read_mattes(Imf::InputFile& file) {
+std::vector<PictureMatte> read_mattes(Parts& file) {
     const auto& header = file.header();
     std::vector<PictureMatte> mattes;
     for (auto one = header.begin(); one != header.end(); ++one) {
         const std::string attribute = one.name();
         const auto* name = text_in(header, attribute);
         if (!name || !attribute.starts_with(of_mattes) || attribute != matte_key(*name) + "/name") continue;
-        PictureMatte& matte = mattes.emplace_back(PictureMatte{*name, ranks_of(*name, header.channels()), {}, {}});
+        PictureMatte& matte = mattes.emplace_back(PictureMatte{*name, ranks_of(*name, file), {}, {}});
         if (const auto* manifest = text_in(header, matte_key(*name) + "/manifest")) matte.manifest = *manifest;
-        Wanted wanted(file);
-        matte.pixels.resize(wanted.pixels() * matte.ranks);
+        matte.pixels.resize(file.pixels() * matte.ranks);
         for_matte_channels(matte, [&](const std::string& channel, const float* first, std::size_t step) {
-            wanted.add(channel, first, step);
+            file.want(channel, first, step);
         });
-        wanted.read();
+        file.read();
     }
     return mattes;
 }
@@ -160,13 +205,14 @@ PictureNotes notes_in(const Imf::Header& header) {
 }
 
 // A file that is packed in another way is written as usual.
-PictureStorage storage_of(const Imf::Header& header, const std::vector<PictureLayer>& shown) {
+PictureStorage storage_of(const Parts& file, const std::vector<PictureLayer>& shown) {
     PictureStorage storage;
+    storage.parts = file.several();
     const auto& compressions = lossless_compressions();
-    if (const auto number = static_cast<std::size_t>(header.compression()); number < compressions.size())
+    if (const auto number = static_cast<std::size_t>(file.header().compression()); number < compressions.size())
         storage.compression = compressions[number];
     for (const auto& layer : shown)
-        if (const auto* channel = header.channels().findChannel(channels_of(layer.name, layer.letters).front()))
+        if (const auto* channel = file.channel(channels_of(layer.name, layer.letters).front()))
             storage.half = storage.half || channel->type == Imf::HALF;
     return storage;
 }
@@ -194,24 +240,23 @@ void read_place(const Imf::Header& header, Picture& picture) {
 
 Picture read_exr(const std::filesystem::path& path) try {
     expect_plausible(path);
-    Imf::InputFile file(path.c_str(), 0);
+    Parts file(path);
     const auto window = file.header().dataWindow();
     expect_pixels(window, path);
     Picture picture{static_cast<std::uint32_t>(window.max.x - window.min.x + 1),
                     static_cast<std::uint32_t>(window.max.y - window.min.y + 1),
                     {},
                     {}};
-    Wanted wanted(file);  // all at once: each reading of a file unpacks all of it
-    picture.beauty = wanted_layer(wanted, "", usual_letters);
+    picture.beauty = wanted_layer(file, "", usual_letters);
     for (auto [attribute, layers] : {std::pair(layers_attribute, &picture.layers), {shown_attribute, &picture.shown}})
         if (const auto* names = file.header().findTypedAttribute<Imf::StringVectorAttribute>(attribute))
             for (const auto& name : names->value()) {
                 if (std::any_of(layers->begin(), layers->end(), [&](const auto& known) { return known.name == name; }))
                     throw Error(path.string(), "is damaged: it names layer " + name + " twice");
-                const auto letters = letters_of(file.header().channels(), name);
-                layers->push_back({name, wanted_layer(wanted, name, letters), {1, 1, 1}, letters});
+                const auto letters = letters_of(file, name);
+                layers->push_back({name, wanted_layer(file, name, letters), {1, 1, 1}, letters});
             }
-    wanted.read();
+    file.read();  // all at once: each reading of a part unpacks all of it
     make_depths_grey(picture.layers);
     make_depths_grey(picture.shown);
     read_gains(file.header(), picture.layers);
@@ -219,7 +264,7 @@ Picture read_exr(const std::filesystem::path& path) try {
     picture.alpha = read_channel(file, alpha_channel);
     picture.mattes = read_mattes(file);
     picture.notes = notes_in(file.header());
-    picture.storage = storage_of(file.header(), picture.shown);
+    picture.storage = storage_of(file, picture.shown);
     read_place(file.header(), picture);
     if (const auto* done = file.header().findTypedAttribute<Imf::FloatAttribute>(done_attribute))
         picture.done = done->value();

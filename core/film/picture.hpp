@@ -30,6 +30,7 @@ struct PictureLayer {
 struct PictureStorage {
     std::string compression = "zip";  // one of lossless_compressions()
     bool half = false;                // what is shown beside the sum has half floats (11 bits)
+    bool parts = false;               // each layer has a part of its own; else all channels are in one
     friend bool operator==(const PictureStorage&, const PictureStorage&) = default;
 };
 

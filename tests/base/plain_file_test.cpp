@@ -69,6 +69,18 @@ TEST(ExrClaims, ArePixelsThatNoCompressionPacksIntoSoFewBytes) {
     EXPECT_THROW(check(window(2147483647, 2147483647), 3000), Error);
 }
 
+TEST(ExrClaims, AreThoseOfAllPartsTogether) {
+    const auto parts = [](int count) {
+        std::string file("\x76\x2f\x31\x01\x02\x10\0\0", 8);
+        for (int part = 0; part < count; ++part)
+            file += window(1024, 1024) + attribute("compression", "compression", "\3", 1) + '\0';
+        file += '\0' + std::string(3000, 'x');
+        check_exr_claims(std::as_bytes(std::span(file)));
+    };
+    EXPECT_NO_THROW(parts(2));
+    EXPECT_THROW(parts(200), Error);
+}
+
 TEST(ExrClaims, AreAttributesLongerThanTheFile) {
     EXPECT_THROW(check(attribute("odd", "opaque", "x", 1'700'000'000), 200), Error);
     EXPECT_THROW(check(attribute("odd", "string", "x", 0xffffffff), 200), Error);

@@ -45,6 +45,28 @@ TEST_F(Compositing, MattesAreThoseOfTheSpecification) {
     EXPECT_THAT(check.output(), HasSubstr("CryptoLamp {'softbox'"));
 }
 
+TEST_F(Compositing, HasTheSameChannelsInPartsOfTheirOwn) {
+    const auto whole = rendered({"--size", "32x24", "--samples", "4"});
+    ASSERT_EQ(whole.code, 0) << whole.said;
+    const auto remix = [&](const std::string& from, const std::string& how, const std::string& to) {
+        Process process({program("lightnet"), "remix", folder / from, "--keep-gains", how, "-o", folder / to});
+        EXPECT_EQ(process.wait(), 0) << process.output();
+    };
+    remix("picture.exr", "--parts", "parts.exr");
+    remix("parts.exr", "--one-part", "one.exr");
+    EXPECT_TRUE(bytes_of(folder / "one.exr") == whole.picture) << "and back";
+    const auto script = std::string(LIGHTNET_SOURCE_DIR) + "/tests/modes/parts.py";
+    Process check({"/usr/bin/python3", script, folder / "picture.exr", folder / "parts.exr"});
+    const int code = check.wait();
+    constexpr int lacks_a_library = 77, lacks_python = 127;
+    if (code == lacks_a_library || code == lacks_python) GTEST_SKIP() << check.output();
+    EXPECT_EQ(code, 0) << check.output();
+    EXPECT_THAT(check.output(), HasSubstr("'rgba'"));
+    const auto rendered_so =
+        rendered({"--size", "32x24", "--samples", "4"}, changed("half = true", "half = true, parts = true"));
+    EXPECT_TRUE(rendered_so.picture == bytes_of(folder / "parts.exr")) << "as the film says";
+}
+
 TEST_F(Compositing, TakesMoreSamplesLaterWithTheBytesOfAllAtOnce) {
     const auto at_once = rendered({"--size", "24x18", "--samples", "100", "--threads", "1"});
     ASSERT_EQ(at_once.code, 0) << at_once.said;

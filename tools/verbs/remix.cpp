@@ -19,6 +19,7 @@ struct RemixOptions {
     std::string picture, output;
     std::vector<Gain> gains;
     std::string compression;  // "": as it is
+    bool parts = false, one_part = false;
     std::string arrays;       // file; "": none
     bool keep_gains = false;  // of the picture
     PngRequest png;
@@ -36,6 +37,9 @@ void describe_remix(CLI::App& verb, RemixOptions& options) {
     takes_one_of(
         verb.add_option("--compression", options.compression, "how the new EXR is packed, instead of as IMAGE"),
         lossless_compressions());
+    auto* const parts = verb.add_flag("--parts", options.parts, "each layer has a part of its own in the new EXR");
+    verb.add_flag("--one-part", options.one_part, "all layers are in one part, as IMAGE may not have them")
+        ->excludes(parts);
     add_arrays(verb, options.arrays);
     verb.add_flag("--keep-gains", options.keep_gains, "all layers keep the gains that they have in IMAGE")
         ->excludes(gains);
@@ -48,6 +52,7 @@ int remix(const RemixOptions& options, const Launcher& launcher) {
     Picture picture = read_layers(options.picture);
     if (!options.keep_gains) mix_or_complain(picture, options.gains, options.picture);
     if (!options.compression.empty()) picture.storage.compression = options.compression;
+    if (options.parts || options.one_part) picture.storage.parts = options.parts;
     const auto usual = std::filesystem::path(options.picture).replace_extension(".remix.exr").string();
     write_remix(picture, options.output.empty() ? usual : options.output, options.png, launcher.err);
     if (!options.arrays.empty()) {

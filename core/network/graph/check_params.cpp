@@ -240,11 +240,11 @@ private:
                 crop(entry, table->list);
             else if (name == "gains")
                 gains(entry);
-            else if (name == "half" || name == "clean" || name == "compression")
+            else if (name == "half" || name == "parts" || name == "clean" || name == "compression")
                 storage(name, entry);
             else if (name != "file")
                 complain_(in_quotes(param_.name) + " has an unknown entry " + in_quotes(name) +
-                          suggest(name, {"file", "crop", "gains", "half", "compression", "clean"}));
+                          suggest(name, {"file", "crop", "gains", "half", "parts", "compression", "clean"}));
             else if (!std::holds_alternative<std::string>(entry.data))
                 complain_("'file' of " + in_quotes(param_.name) + " must be a text, not " +
                           std::string(type_name(entry)));

@@ -42,6 +42,8 @@ GraphFilm film_of(const Graph& graph, const Registry& registry) {
             made.gains.push_back({layer, gain_in(value)});
     if (const auto half = film.named.find("half"); half != film.named.end())
         made.storage.half = std::get<bool>(half->second.data);
+    if (const auto parts = film.named.find("parts"); parts != film.named.end())
+        made.storage.parts = std::get<bool>(parts->second.data);
     if (const auto packed = film.named.find("compression"); packed != film.named.end())
         made.storage.compression = std::get<std::string>(packed->second.data);
     return made;

@@ -16,7 +16,7 @@
 namespace lightnet {
 
 /// `film = { width, height, crop = { x0, y0, x1, y1 }, gains = { direct = 0.5, bounce = { 1.2, 1.1, 1 } }, half =
-/// true, compression = "piz", clean = true, file = "x.exr" }`
+/// true, parts = true, compression = "piz", clean = true, file = "x.exr" }`
 struct GraphFilm {
     std::uint32_t width = 0, height = 0;  // pixels
     std::string file;                     // "" where the graph names none
