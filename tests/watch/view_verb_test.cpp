@@ -56,9 +56,9 @@ private:
 
 class ViewVerb : public testing::Test {
 protected:
-    void render(const std::string& name, std::vector<std::string> more = {}) {
-        more.insert(more.end(), {"--size", "16x12", "--samples", "16", "--threads", "1"});
-        test::Process run(test::launch_words(test::graph_file("cornell.lua"), folder / name, more));
+    void render(const std::string& name, const std::string& size = "16x12", const std::string& seed = "1") {
+        test::Process run(test::launch_words(test::graph_file("cornell.lua"), folder / name,
+                                             {"--size", size, "--seed", seed, "--samples", "16", "--threads", "1"}));
         ASSERT_EQ(run.wait(), 0) << run.output();
     }
     test::Folder folder;
@@ -78,7 +78,7 @@ TEST_F(ViewVerb, ShowsANetworkAndExplainsPixels) {
 }
 
 TEST_F(ViewVerb, ComparesTwoRunsOfOneGraph) {
-    render("x.exr"), render("y.exr", {"--seed", "7"});
+    render("x.exr"), render("y.exr", "16x12", "7");
     Viewing viewing({folder / "x.exr", folder / "y.exr"});
     const auto hello = viewing.hears("hello");
     EXPECT_EQ(hello["other"]["colours"].size(), hello["colours"].size());
@@ -101,7 +101,7 @@ TEST_F(ViewVerb, SaysWhatIsWrong) {
         return process.output();
     };
     EXPECT_THAT(mistaken({folder / "none.exr"}), HasSubstr("none.exr: can't be read"));
-    render("x.exr"), render("wide.exr", {"--size", "20x12"});
+    render("x.exr"), render("wide.exr", "20x12");
     EXPECT_THAT(mistaken({folder / "x.exr", folder / "wide.exr"}), HasSubstr("only pictures of the same pixels"));
     EXPECT_THAT(mistaken({folder / "x.exr", "--report", folder / "wide.run.json"}),
                 HasSubstr("tells of another picture"));
