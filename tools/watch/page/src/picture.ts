@@ -30,7 +30,7 @@ export class Picture {
     constructor(hello: Hello, width = hello.picture[2], height = hello.picture[3]) {
         this.width = width;
         this.height = height;
-        this.colours = hello.colours.length;
+        this.colours = hello.colours.length + (hello.other ? 1 + hello.other.colours.length : 0);
         this.layers = hello.colours.flatMap((colour, k) => (colour.layer ? [k] : []));
         this.cleaned = hello.cleaned ?? 0;
         this.other = hello.other ?? null;
