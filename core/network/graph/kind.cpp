@@ -139,8 +139,9 @@ Kind scene_kind() {
          .optional = true},
         {.name = "shutter",
          .type = ParamType::numbers,
-         .help = "when it opens and closes, after the time: { 0, 0.5 } is half a frame, a shutter of 180 degrees; what "
-                 "moves in the file meanwhile is blurred",
+         .help =
+             "when it opens and closes, after the time: { 0, 0.5 } is half a frame, a shutter of 180 degrees; what "
+             "moves in the file meanwhile is blurred; else that of the file's own camera (pbrt, Mitsuba), in a still",
          .unit = "frames",
          .optional = true,
          .count = 2},
