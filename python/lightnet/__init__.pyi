@@ -647,7 +647,7 @@ class Scene(Node):
     time: number, in seconds
         of what moves in the file; else that of the frame, and in a still all stands as the file has it
     shutter: numbers, in frames
-        when it opens and closes, after the time: { 0, 0.5 } is half a frame, a shutter of 180 degrees; what moves in the file meanwhile is blurred
+        when it opens and closes, after the time: { 0, 0.5 } is half a frame, a shutter of 180 degrees; what moves in the file meanwhile is blurred; else that of the file's own camera (pbrt, Mitsuba), in a still
     fps: number, 1e-06 …
         frames per second, of which the shutter's are; else those of the graph
     material: text, "clay"
