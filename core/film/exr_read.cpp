@@ -196,7 +196,8 @@ PictureNotes notes_in(const Imf::Header& header) {
     PictureNotes notes;
     for (auto one = header.begin(); one != header.end(); ++one) {
         const std::string name = one.name();
-        const bool own = name.starts_with(of_mattes) || name == colours_attribute;
+        const bool of_part = name == "name" || name == "type";
+        const bool own = name.starts_with(of_mattes) || name == colours_attribute || of_part;
         if (const auto* text = text_in(header, name); text && !own) notes.texts[name] = *text;
         if (const auto* matrix = header.findTypedAttribute<Imf::M44fAttribute>(name.c_str()))
             for (std::size_t i = 0; i < 16; ++i) notes.matrices[name][i] = matrix->value()[int(i / 4)][int(i % 4)];
