@@ -67,6 +67,7 @@ std::vector<std::string> mitsuba_seeds() {
 <float name="uscale" value="2"/></texture><float name="scale" value="3"/></texture><bsdf type="roughconductor"><string name="material" value="Au"/></bsdf></bsdf></shape>
 <shape type="disk"><bsdf type="mixturebsdf"><string name="weights" value=".5,.2"/><bsdf type="diffuse"><spectrum name="reflectance" value="400:.1 700:.5"/></bsdf>
 <bsdf type="dielectric"><string name="intIOR" value="water"/></bsdf></bsdf></shape>
+<shape type="sphere"><bsdf type="hair"><rgb name="sigma_a" value=".1,.2,.3"/><float name="scale" value="2"/></bsdf></shape>
 <emitter type="envmap"><string name="filename" value="p.hdr"/></emitter><emitter type="projector"><texture name="irradiance" type="bitmap">
 <string name="filename" value="p.hdr"/></texture></emitter><emitter type="spot"/><emitter type="sun"/></scene>)"};
 }

@@ -61,6 +61,8 @@ Material "conductor" "spectrum eta" "metal-Cu-eta" "spectrum k" "metal-Cu-k"
 Shape "disk" "float radius" 2
 Material "measured" "string filename" "even.bsdf"
 Shape "sphere"
+Material "hair" "rgb reflectance" [ .2 .5 .9 ] "float beta_m" .4 "float alpha" 3
+Shape "curve" "point3 P" [ 0 0 0 0 0 1 0 1 2 0 1 3 ] "float width" .1
 Material "dielectric" "float eta" 1.5
 Shape "cylinder" "float zmin" -1 "float zmax" 1
 LightSource "infinite" "blackbody L" 6500 "float scale" .1

@@ -37,6 +37,7 @@ Medium lumps(float extinction) {
 SceneData ball_of(const Medium& medium, AnyMaterial surface = NoMaterial{}) {
     SceneData data;
     data.environments.push_back({{1, 1, 1}});
+    data.film.width = data.film.height = 24;
     data.camera = camera({0, 0, 4}, {0, 0, 0}, 25);
     data.camera_given = true;
     data.media.push_back(medium);

@@ -43,6 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Albedo, Furnace, testing::Values(0.5f, 0.8f));
 TEST(WhiteSky, HidesAnythingThatLosesNothing) {
     SceneData data;
     data.environments.push_back({{1, 1, 1}});
+    data.film.width = data.film.height = 24;
     data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
     data.camera_given = true;
     add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
@@ -63,6 +64,7 @@ TEST(WhiteSky, MadeOfTwoSunsHidesAnythingThatLosesNothing) {
     SceneData data;
     for (const float side : {-1.0f, 1.0f})
         data.lights.push_back(DirectionalLight{{side, 0, 0}, Rgb{1, 1, 1} * pi, {}, pi / 2});
+    data.film.width = data.film.height = 24;
     data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
     data.camera_given = true;
     add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
@@ -162,6 +164,7 @@ TEST_P(Furnace, IsAsBrightWhenOneNodeFollowsAllPaths) {
 TEST(WhiteSky, HidesAnythingWhenOneNodeFollowsAllPaths) {
     SceneData data;
     data.environments.push_back({{1, 1, 1}});
+    data.film.width = data.film.height = 24;
     data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
     data.camera_given = true;
     add(data, quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}), diffuse(data, 1));
@@ -178,6 +181,7 @@ TEST(WhiteSky, HidesAnythingWhenOneNodeFollowsAllPaths) {
 TEST(PathTracing, FindsAllThatDirectAndIndirectLightAddUpTo) {
     SceneData data;
     data.environments.push_back({{0.5f, 0.5f, 0.5f}});
+    data.film.width = data.film.height = 24;
     data.camera = camera({0, 2, 6}, {0, 0.5f, 0}, 40);
     data.camera_given = true;
     add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 0.7f));

@@ -120,6 +120,10 @@ std::vector<Parameter> of_bsdfs() {
              {number("int_ior", "1.7"), number("ext_ior", "1.2"), colour("sigma_a"), colour("specular_reflectance")},
              diffuse);
     bsdf("roughcoating", {number("alpha", ".4"), word("distribution", "as")}, diffuse);
+    bsdf("hair", {number("eumelanin", ".4"), number("pheomelanin", ".4"), number("longitudinal_roughness", ".1"),
+                  number("azimuthal_roughness", ".1"), number("scale_tilt", "3"), number("int_ior", "1.4"),
+                  number("ext_ior", "1.2"), colour("sigma_a"), checks("sigma_a"), number("scale", "3")});
+    bsdf("hair", {number("scale", "3")}, colour("sigma_a"));
     return all;
 }
 
@@ -221,7 +225,7 @@ TEST(MitsubaMedia, OfUnknownTypesAreNamed) {
 
 // Whole plugins that are not supported go by their names.
 TEST(MitsubaPlugins, ThatAreNotSupportedAreNamed) {
-    for (const std::string type : {"hair", "measured_polarized", "pplastic", "polarizer", "hk", "irawan", "sssbrdf"})
+    for (const std::string type : {"measured_polarized", "pplastic", "polarizer", "hk", "irawan", "sssbrdf"})
         EXPECT_THAT(warnings_of(read("<shape type='sphere'><bsdf type='" + type + "'/></shape>")),
                     HasSubstr("bsdf '" + type + "' is not supported"));
     for (const std::string type : {"heightfield", "hair", "sdfgrid", "deformable"})

@@ -126,11 +126,6 @@ TEST(PbrtMaterials, MayLetLightThroughEvenly) {
     EXPECT_EQ(colour_of(scene, model.transmittance.value()), (Rgb{0.1f, 0.2f, 0.3f}));
 }
 
-TEST(PbrtMaterials, WithoutAMatchAreTheNearest) {
-    const std::string lead = "scene.pbrt:2: Material ";
-    EXPECT_THAT(warnings_of(with("Material \"hair\"")), HasSubstr(lead + "'hair': scattering by hair"));
-}
-
 TEST(PbrtMaterials, Mix) {
     const auto scene = with(
         "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]\n"

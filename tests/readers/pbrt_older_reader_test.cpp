@@ -340,8 +340,7 @@ TEST(OlderMaterials, HaveBumps) {
 }
 
 TEST(OlderMaterials, ThatAreReplacedAreNamed) {
-    for (const std::string type :
-         {"substrate", "disney", "subsurface", "kdsubsurface", "hair", "measured", "shinymetal"})
+    for (const std::string type : {"substrate", "disney", "subsurface", "kdsubsurface", "measured", "shinymetal"})
         EXPECT_THAT(others(older("Material \"" + type + "\" " + ball)), Not(IsEmpty())) << type;
     const auto gold = older("Material \"fourier\" \"string bsdffile\" \"bsdfs/roughgold_alpha_0.2.bsdf\" " + ball);
     EXPECT_FLOAT_EQ(model_of<ConductorMaterial>(gold).roughness.u, 0.2f);

@@ -50,6 +50,7 @@ std::vector<Material> all_materials() {
     add(NoMaterial{});
     add(BurleyMaterial{1, 1, 1, 1, rough(), 1, 1, 1, 1, 1, 1, 1, true, true, 1, 1});
     add(MeasuredMaterial{measured(1)});
+    add(HairMaterial{1, 1, HairMaterial::Colour::melanin, 1, 1, 1, 1, true});
     return materials;
 }
 

@@ -29,6 +29,11 @@ std::optional<TextureId> varying(Textures& textures, Properties& properties, std
     return given && !is_colour(*given) ? std::optional(textures.of(*given)) : std::nullopt;
 }
 
+bool may_be_above_zero(const Context& context, TextureId texture) {
+    const Texture& number = context.assets.scene().textures[texture];
+    return !std::holds_alternative<std::monostate>(number.pattern) || number.scale.r > 0;
+}
+
 }  // namespace
 
 const std::map<std::string, Bsdfs::Maker, std::less<>>& Bsdfs::makers() {
@@ -57,6 +62,7 @@ const std::map<std::string, Bsdfs::Maker, std::less<>>& Bsdfs::makers() {
                                                                  {"coating", &Bsdfs::coating},
                                                                  {"roughcoating", &Bsdfs::coating},
                                                                  {"measured", &Bsdfs::measured},
+                                                                 {"hair", &Bsdfs::hair},
                                                                  {"null", &Bsdfs::nothing}};
     return table;
 }
@@ -296,16 +302,11 @@ BurleyMaterial Bsdfs::burley(Properties& properties) {
     return model;
 }
 
-bool Bsdfs::may_be_above_zero(TextureId texture) const {
-    const Texture& number = context_.assets.scene().textures[texture];
-    return !std::holds_alternative<std::monostate>(number.pattern) || number.scale.r > 0;
-}
-
 Material Bsdfs::principled(Properties& properties) {
     BurleyMaterial model = burley(properties);
     const auto get = [&](const char* name) { return textures_.get(properties, name, 0.0f); };
     model.metallic = get("metallic"), model.coat = get("clearcoat"), model.gloss = get("clearcoat_gloss");
-    model.lets_through = may_be_above_zero(model.transmission);
+    model.lets_through = may_be_above_zero(context_, model.transmission);
     float eta = 1.5f;
     if (properties.has("eta")) {
         eta = index_of(properties, "eta", "bk7");
@@ -329,7 +330,7 @@ Material Bsdfs::thin_principled(Properties& properties) {
     Texture half = context_.assets.scene().textures[textures_.get(properties, "diff_trans", 0.0f)];
     half.scale *= 0.5f;
     model.through = context_.assets.add(half);
-    model.lets_through = may_be_above_zero(model.transmission) || may_be_above_zero(model.through);
+    model.lets_through = may_be_above_zero(context_, model.transmission) || may_be_above_zero(context_, model.through);
     return {"", model};
 }
 

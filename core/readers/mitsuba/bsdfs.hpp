@@ -51,6 +51,7 @@ private:
     Material normal_map(Properties&);
     Material coating(Properties&);
     Material measured(Properties&);
+    Material hair(Properties&);
     Material nothing(Properties&);
 
     Roughness roughness(Properties& properties, float fallback);
@@ -60,7 +61,6 @@ private:
     BurleyMaterial burley(Properties& properties);
     Roughness burley_roughness(Properties& properties, bool varies);
     float mean_of(Properties& properties, std::string_view name, float fallback);
-    bool may_be_above_zero(TextureId texture) const;
     Material highlight(Properties& properties, Roughness roughness);
 
     Textures& textures_;

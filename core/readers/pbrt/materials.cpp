@@ -12,6 +12,7 @@
 #include "core/base/suggestion.hpp"
 #include "core/readers/common/dispersion.hpp"
 #include "core/readers/common/spectra.hpp"
+#include "core/readers/pbrt/hair.hpp"
 #include "core/readers/pbrt/media.hpp"
 
 namespace lightnet::pbrt {
@@ -205,10 +206,7 @@ Material subsurface(Parameters& parameters, const MaterialSources& sources) {
 }
 
 Material hair(Parameters& parameters, const MaterialSources& sources) {
-    parameters.warn("scattering by hair is not supported: taken as diffuse");
-    parameters.ignore({"eumelanin", "pheomelanin", "sigma_a", "eta", "beta_m", "beta_n", "alpha", "color"});
-    const char* colour = parameters.find("color") ? "color" : "reflectance";
-    return model(DiffuseMaterial{sources.textures.colour(parameters, colour, {0.25f, 0.15f, 0.1f}), 0, std::nullopt});
+    return model(hair_material(parameters, sources));
 }
 
 Material measured(Parameters& parameters, const MaterialSources& sources) {

@@ -17,6 +17,7 @@
 #include "core/scene/bsdf/conductor.hpp"
 #include "core/scene/bsdf/dielectric.hpp"
 #include "core/scene/bsdf/diffuse_material.hpp"
+#include "core/scene/bsdf/hair.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/measured.hpp"
 #include "core/scene/bsdf/principled.hpp"
@@ -24,9 +25,9 @@
 namespace lightnet {
 
 /// The list. A new one goes to its end: the number of a material in it is part of a scene's identity.
-using AnyMaterial =
-    std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, CoatedConductorMaterial,
-                 PrincipledMaterial, MixtureMaterial, TwoFacedMaterial, NoMaterial, BurleyMaterial, MeasuredMaterial>;
+using AnyMaterial = std::variant<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial,
+                                 CoatedConductorMaterial, PrincipledMaterial, MixtureMaterial, TwoFacedMaterial,
+                                 NoMaterial, BurleyMaterial, MeasuredMaterial, HairMaterial>;
 
 /// Is a model of scattering at each place: at() gives it, or one of several.
 template <class M>

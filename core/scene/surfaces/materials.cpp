@@ -29,7 +29,18 @@ bool anisotropic(const Material& material) {
     found |= burley && burley->anisotropic;
     const auto* measured = std::get_if<MeasuredMaterial>(&material.model);
     found |= measured && measured->measured && !measured->measured->isotropic();
-    return found || turned_grooves(material);
+    return found || turned_grooves(material) || std::holds_alternative<HairMaterial>(material.model);
+}
+
+bool hair_by_v(const Material& material) {
+    const auto* hair = std::get_if<HairMaterial>(&material.model);
+    return hair && hair->across_by_v;
+}
+
+/// Where across a fibre a point of flat hair lies, by its texture coordinate v.
+float across_flat_hair(const Frame& frame, const SurfacePoint& point) {
+    const float across = 2 * std::clamp(point.uv.y, 0.0f, 1.0f) - 1;
+    return dot(frame.y, point.along_v) < 0 ? -across : across;
 }
 
 template <class Model>
@@ -80,7 +91,9 @@ void Materials::make(MaterialId id) {
     made.filled = transparency_of(material) == Transparency::solid && absorbs;
     made.handed = turned_grooves(material);
     made.coat = own_coat(material);
-    made.simple = made.constant && !made.bumpy && !made.filled && !made.handed && !made.coat && !material.one_sided;
+    made.hair_by_v = hair_by_v(material);
+    made.simple = made.constant && !made.bumpy && !made.filled && !made.handed && !made.coat && !made.hair_by_v &&
+                  !material.one_sided;
     made.lobes = lobes_everywhere(id);
 }
 
@@ -124,7 +137,8 @@ Bsdf Materials::bsdf(MaterialId id, const SurfacePoint& point) const {
     const Material& material = data_.materials[id];
     const auto whole = [&](const Bsdf::Model& model) {
         const Frame frame = frame_at(id, point);
-        Bsdf result(frame, point.normal, made.coat ? under_own_coat(id, model, frame, point) : model);
+        const bool fits = !made.coat && !made.hair_by_v;
+        Bsdf result(frame, point.normal, fits ? model : fitted(id, model, frame, point));
         if (material.one_sided) result.make_one_sided();
         const auto unless_black = [](const Rgb& c) { return is_black(c) ? nullptr : &c; };
         if (made.filled)
@@ -154,9 +168,14 @@ Frame Materials::frame_at(MaterialId id, const SurfacePoint& point) const {
     return frame;
 }
 
-Bsdf::Model Materials::under_own_coat(MaterialId id, const Bsdf::Model& model, const Frame& frame,
-                                      const SurfacePoint& point) const {
+Bsdf::Model Materials::fitted(MaterialId id, const Bsdf::Model& model, const Frame& frame,
+                              const SurfacePoint& point) const {
     Bsdf::Model result = model;
+    if (auto* hair = std::get_if<HairBsdf>(&result)) {
+        if (!std::holds_alternative<Curves>(data_.shapes[point.geometry].geometry))
+            hair->across = across_flat_hair(frame, point);
+        return result;
+    }
     const Vec3 up = frame.to_local(coat_normal(data_, *made_[id].coat, point));
     if (auto* principled = std::get_if<PrincipledBsdf>(&result); principled && up.z > 0)
         principled->coat_up = normalize(up);

@@ -85,6 +85,7 @@ private:
         bool filled = false;  // with what absorbs
         bool handed = false;  // its grooves may be turned: its frame is as left-handed as texture coordinates are
         const PrincipledCoatNormal* coat = nullptr;  // its coat has a normal of its own
+        bool hair_by_v = false;                      // it is hair, and v goes across what is seen of a fibre
         std::uint8_t lobes = 0;
         std::vector<const ImageTexture*> pictures;  // all that it looks into
     };
@@ -92,8 +93,8 @@ private:
     std::uint8_t lobes_everywhere(MaterialId material) const;
     MaterialNeeds needs_of(MaterialId material);
     Frame frame_at(MaterialId material, const SurfacePoint& point) const;
-    Bsdf::Model under_own_coat(MaterialId material, const Bsdf::Model& model, const Frame& frame,
-                               const SurfacePoint& point) const;
+    Bsdf::Model fitted(MaterialId material, const Bsdf::Model& model, const Frame& frame,
+                       const SurfacePoint& point) const;
     Frame bumpy_frame(MaterialId material, const SurfacePoint& point) const;
     Bsdf blend(std::span<const BlendPart> parts, const SurfacePoint& point) const;
 

@@ -12,6 +12,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
+#include "tests/scene/bsdf/hair_models.hpp"
 #include "tests/scene/bsdf/measured_models.hpp"
 #include "tests/scene/bsdf/principled_models.hpp"
 
@@ -215,6 +216,8 @@ const std::vector<Case> cases{
     {"burley_sheet", all_of_burley(true)},
     {"measured_metal", [] { return measured_metal(); }},
     {"measured_grooves", [] { return measured_grooves(); }},
+    {"hair", hair_of({0.3f, 0.3f, 2}, {0.3f, 0.6f, 1.2f})},
+    {"flat_rough_hair_of_large_scales", hair_of({0.9f, 0.95f, 20}, {0, 0.1f, 0.5f}, -0.8f)},
     {"mixture", DiffuseBsdf{{0.8f, 0.5f, 0.2f}}, ConductorBsdf{copper.eta, copper.k, {0.3f, 0.3f}}},
     {"mixture_with_a_mirror", RoughDiffuseBsdf{{0.8f, 0.5f, 0.2f}, 0.4f}, ConductorBsdf{copper.eta, copper.k, {}}},
     {"mixture_with_nothing",
@@ -348,6 +351,7 @@ TEST_P(EveryModel, IsReciprocal) {
     if (const auto* many = std::get_if<PrincipledBsdf>(&model); many && many->coat_up.x != 0)
         return;  // against the surface's normal no other normal's reflection is
     if (std::holds_alternative<MeasuredBsdf>(model)) return;  // as far as what was measured is: see measured_test.cpp
+    if (std::holds_alternative<HairBsdf>(model)) return;      // as a whole, not at a point: see hair_test.cpp
     for (std::uint32_t k = 0; k < 2000; ++k) {
         Samples samples(5, k);
         const Vec3 a = sphere(samples.next_2d()), b = sphere(samples.next_2d());
