@@ -110,7 +110,7 @@ TEST(Obj, MayNameVerticesThatComeLater) {
     EXPECT_EQ(shape("red").uvs[1], (Vec2{1, 0}));
     EXPECT_EQ(shape("blue").positions, (std::vector<Vec3>{{0, 0, 1}, {0, 1, 0}, {9, 9, 9}})) << "-1 was the first";
     EXPECT_EQ(shape("green").triangles.size(), 1u);
-    EXPECT_THAT(errors_as("a.obj", "f 1 2 4\n" + corners), HasSubstr("a.obj:1: index 4 is out of range: there are"));
+    EXPECT_THAT(errors_as("a.obj", "f 1 2 9\n" + corners), HasSubstr("a.obj:1: index 9 is out of range: there are"));
 }
 
 TEST(Obj, SaysWhatIsWrongAndWhere) {
