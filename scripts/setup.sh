@@ -28,6 +28,7 @@ packages_of_tests=(
     openssh-client openssh-server python3-yaml          # hosts by ssh; what deploys farms
     libnoise-dev libgsl-dev                             # what examples wrap
     python3-nbclient python3-ipykernel                  # notebooks
+    libnanovdb-dev                                      # grids as their own library writes them
     slurm-client slurmctld slurmd munge                 # a queue
 )
 

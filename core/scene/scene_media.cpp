@@ -149,7 +149,7 @@ std::size_t Media::memory() const {
         for (const auto* field : {&medium.extinction, &medium.albedo, &medium.emission})
             if (field->grid) grids.insert(field->grid.get());
     std::size_t bytes = borders_ ? borders_->geometry.memory() : 0;
-    for (const VolumeGrid* grid : grids) bytes += grid->values.size() * sizeof(float);
+    for (const VolumeGrid* grid : grids) bytes += grid->memory();
     return bytes;
 }
 

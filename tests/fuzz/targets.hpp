@@ -50,6 +50,8 @@ Target measured();
 /// Profiles of luminaires, asked for what they send into some directions.
 Target profiles();
 Target volumes();
+/// NanoVDB's files.
+Target sparse_volumes();
 /// Pictures of the usual kinds, and of the others.
 Target pictures();
 Target rare_pictures();
@@ -99,7 +101,7 @@ inline std::vector<Target> all_targets() {
             serialized(),    strands(),  pictures(), films(),   manifests(), jobs(),          checkpoints(),
             graphs(),        keys(),     gates(),    watched(), rays_pbrt(), rays_mitsuba(),  rays_gltf(),
             rays_obj(),      customs(),  kept(),     pasts(),   words(),     conversations(), lines(),
-            rare_pictures(), measured(), profiles(), volumes()};
+            rare_pictures(), measured(), profiles(), volumes(), sparse_volumes()};
 }
 
 }  // namespace lightnet::fuzz

@@ -287,10 +287,10 @@ TEST(PbrtWarnings, NameShapesWithoutTriangles) {
 
 TEST(PbrtWarnings, AreCountedWhereTheyRepeat) {
     const auto scene = read_world(
-        "MakeNamedMedium \"mist\" \"string type\" \"nanovdb\"\nMakeNamedMedium \"fog\" \"string type\" "
-        "\"nanovdb\"");
+        "MakeNamedMedium \"mist\" \"string type\" \"smoky\"\nMakeNamedMedium \"fog\" \"string type\" "
+        "\"smoky\"");
     EXPECT_EQ(warnings_of(scene),
-              "scene.pbrt:2: a medium of type 'nanovdb' is not supported: the space is taken as empty (2 "
+              "scene.pbrt:2: a medium of type 'smoky' is not supported: the space is taken as empty (2 "
               "times)\n");
 }
 

@@ -114,6 +114,65 @@ TEST(Media, OfAGridLeaveWhatItsIntegralLeaves) {
     expect_near(mean.collided, Rgb{1, 1, 1} - expected, 0.02f);
 }
 
+// Points in blocks are looked up as those in one row are; blocks that are alike may be one.
+TEST(VolumeGrids, OfBlocksAreThoseWithoutThem) {
+    VolumeGrid rows, blocks;
+    rows.size = blocks.size = {16, 8, 24};
+    rows.fades = blocks.fades = true;
+    blocks.values.assign(VolumeGrid::block_points, 0);
+    const auto density = [](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        return x < 8 && z < 16 ? 0.0f : float((x * 5 + y * 3 + z * 7) % 11);
+    };
+    for (std::uint32_t z = 0; z < 24; ++z)
+        for (std::uint32_t y = 0; y < 8; ++y)
+            for (std::uint32_t x = 0; x < 16; ++x) rows.values.push_back(density(x, y, z));
+    for (std::uint32_t z = 0; z < 24; z += 8)
+        for (std::uint32_t x = 0; x < 16; x += 8) {
+            const bool empty = x < 8 && z < 16;
+            blocks.blocks.push_back(empty ? 0 : std::uint32_t(blocks.values.size() / VolumeGrid::block_points));
+            for (std::uint32_t i = 0; i < VolumeGrid::block_points && !empty; ++i)
+                blocks.values.push_back(density(x + i % 8, i / 8 % 8, z + i / 64));
+        }
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        Samples samples(4, i);
+        const Vec2 along = samples.next_2d();
+        const Vec3 place{1.2f * along.x - 0.1f, 1.2f * along.y - 0.1f, 1.2f * samples.next() - 0.1f};
+        ASSERT_EQ(rows.at(place), blocks.at(place));
+    }
+    const auto light = [](const VolumeGrid& grid) {
+        SceneData data;
+        data.media.push_back(fog({0.3f, 0.2f, 0.1f}, {}));
+        data.media[0].extinction.grid = std::make_shared<const VolumeGrid>(grid);
+        fill(data, {0.5f, 0.5f, 0.5f}, 2, 0, Query::no_medium);
+        return Scene(std::move(data)).transmittance({{-3, 0.3f, 0.6f}, normalize({1, 0.05f, 0.1f})}, {0.3f, 0.7f});
+    };
+    EXPECT_EQ(light(rows), light(blocks));
+    VolumeGrid wrong = blocks;
+    wrong.blocks[1] = 77;
+    Medium medium;
+    medium.extinction.grid = std::make_shared<const VolumeGrid>(wrong);
+    EXPECT_NE(medium.fault(), "");
+}
+
+// Of so many points that their bounds are those of whole blocks.
+TEST(VolumeGrids, OfManyPointsLeaveWhatTheLawSays) {
+    VolumeGrid grid;
+    grid.size = {320, 320, 320};
+    grid.values.assign(VolumeGrid::block_points, 0);
+    grid.values.resize(2 * VolumeGrid::block_points, 2);
+    for (std::uint32_t i = 0; i < 40 * 40 * 40; ++i) grid.blocks.push_back(i % 40 < 20 ? 1 : 0);  // half of it along x
+    EXPECT_LT(grid.memory(), std::size_t{1} << 20);
+    SceneData data;
+    data.media.push_back(fog({1, 0.5f, 0}, {}));
+    data.media[0].extinction.grid = std::make_shared<const VolumeGrid>(grid);
+    fill(data, {0.5f, 0.5f, 0.5f}, 2, 0, Query::no_medium);
+    const Scene scene(std::move(data));
+    Rgb sum;
+    for (std::uint32_t i = 0; i < many; ++i)
+        sum += scene.transmittance({{-3, 0.3f, 0.6f}, {1, 0, 0}}, Samples(5, i).next_2d()) / float(many);
+    expect_near(sum, {std::exp(-1.0f), std::exp(-0.5f), 1}, 0.015f);
+}
+
 // A glow that absorbs: ∫ emission × exp(-extinction t) dt.
 TEST(Media, ShineAsMuchAsTheyLetThrough) {
     for (const bool grid : {false, true}) {

@@ -16,16 +16,15 @@ struct End {
     void operator()(z_stream* stream) const { inflateEnd(stream); }
 };
 
-}  // namespace
+/// A packing that zlib reads.
+struct Packing {
+    std::string name;
+    int header;  // as inflateInit2() wants it
+};
 
-bool is_gzip(std::span<const std::byte> bytes) {
-    return bytes.size() >= 2 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b};
-}
-
-std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t most_unpacked) {
+std::vector<std::byte> inflated(std::span<const std::byte> bytes, std::size_t most_unpacked, const Packing& packing) {
     z_stream stream{};
-    constexpr int gzip_only = 16;
-    if (inflateInit2(&stream, MAX_WBITS + gzip_only) != Z_OK) throw Error("no memory to unpack it");
+    if (inflateInit2(&stream, MAX_WBITS + packing.header) != Z_OK) throw Error("no memory to unpack it");
     const std::unique_ptr<z_stream, End> end(&stream);
     std::vector<std::byte> result(std::min(std::max<std::size_t>(bytes.size() * 3, 4096), most_unpacked));
     std::size_t read = 0, written = 0;
@@ -39,16 +38,30 @@ std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t most
         const int state = inflate(&stream, Z_NO_FLUSH);
         read += in - stream.avail_in, written += out - stream.avail_out;
         if (state == Z_STREAM_END) break;
-        if (state != Z_OK && state != Z_BUF_ERROR) throw Error("its gzip packing is broken");
+        if (state != Z_OK && state != Z_BUF_ERROR) throw Error("its " + packing.name + " packing is broken");
         if (written == result.size() && written >= most_unpacked)
             throw Error("more than " + std::to_string(most_unpacked >> 20) + " MiB when unpacked");
         if (written == result.size())
             result.resize(std::min(result.size() * 2, most_unpacked));
         else if (read == bytes.size())
-            throw Error("its gzip packing ends early");
+            throw Error("its " + packing.name + " packing ends early");
     }
     result.resize(written);
     return result;
+}
+
+}  // namespace
+
+bool is_gzip(std::span<const std::byte> bytes) {
+    return bytes.size() >= 2 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b};
+}
+
+std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t most) {
+    return inflated(bytes, most, {"gzip", 16});
+}
+
+std::vector<std::byte> unzip(std::span<const std::byte> bytes, std::size_t most) {
+    return inflated(bytes, most, {"zlib", 0});
 }
 
 }  // namespace lightnet

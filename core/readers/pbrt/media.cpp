@@ -9,13 +9,11 @@
 #include <utility>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/common/inverse.hpp"
-#include "core/scene/textures/noise.hpp"
 
 namespace lightnet::pbrt {
 namespace {
 
-const std::vector<std::string> known_media{"homogeneous", "uniformgrid", "rgbgrid", "cloud"};
+const std::vector<std::string> known_media{"homogeneous", "uniformgrid", "rgbgrid", "cloud", "nanovdb"};
 
 /// Reduced scattering and absorption per millimetre. Jensen et al. 2001, "A Practical Model for Subsurface Light
 /// Transport", figure 5.
@@ -40,80 +38,6 @@ bool scatters(const Medium& medium) {
     return medium.extinction.grid || medium.albedo.grid || !is_black(medium.albedo.value) || medium.emission.grid ||
            !is_black(medium.emission.value);
 }
-
-std::optional<Box> box_of(Parameters& parameters) {
-    const auto corner = [&](const char* name, Vec3 fallback) {
-        const auto given = parameters.triples(name, Type::point3);
-        return given.empty() ? fallback : given[0];
-    };
-    Box box;
-    box.add(corner("p0", {0, 0, 0}));
-    box.add(corner("p1", {1, 1, 1}));
-    const Vec3 size = box.size();
-    if (finite(box.low) && finite(size) && size.x > 0 && size.y > 0 && size.z > 0) return box;
-    parameters.error("'p0' and 'p1' span no box");
-    return std::nullopt;
-}
-
-// From world space to the unit cube that a box of the medium's own space is.
-std::optional<Matrix> to_cube(const Box& box, const Matrix& to_world) {
-    Matrix unit;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        unit.m[axis][axis] = 1 / double(box.size()[axis]);
-        unit.m[axis][3] = -double(box.low[axis]) / double(box.size()[axis]);
-    }
-    const auto to_own = inverse(to_world);
-    return to_own ? std::optional(unit * *to_own) : std::nullopt;
-}
-
-// The numbers of a grid, x fastest, as the file lists them. None: they aren't given, or reported.
-std::shared_ptr<const VolumeGrid> grid_of(Parameters& parameters, const char* name, std::uint32_t channels) {
-    const Parameter* given = parameters.find(name);
-    if (!given) return nullptr;
-    VolumeGrid grid;
-    grid.fades = true;
-    grid.channels = channels;
-    double points = 1;
-    const std::array<const char*, 3> sides{"nx", "ny", "nz"};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const int size = parameters.integer(sides[axis], 1);
-        grid.size[axis] = static_cast<std::uint32_t>(std::max(size, 1));
-        points *= std::max(size, 1);
-    }
-    if (points * channels != double(given->numbers.size())) {
-        parameters.error(fmt::format("'{}' has {} numbers where nx, ny and nz ask for {:.0f}", name,
-                                     given->numbers.size(), points * channels));
-        return nullptr;
-    }
-    grid.values = given->numbers;
-    return std::make_shared<const VolumeGrid>(std::move(grid));
-}
-
-// pbrt's slopes of its noise.
-Vec3 slopes(Vec3 p) {
-    constexpr float step = 0.01f;
-    const float here = noise(p);
-    return Vec3{noise({p.x + step, p.y, p.z}) - here, noise({p.x, p.y + step, p.z}) - here,
-                noise({p.x, p.y, p.z + step}) - here} /
-           step;
-}
-
-// The density of pbrt's cloud, 0 … 1; y is up.
-struct CloudShape {
-    float density, wispiness, frequency;
-
-    float at(Vec3 p) const {
-        Vec3 place = p * frequency;
-        float height = 0.05f * wispiness, octave = 10;
-        for (int i = 0; i < 2 && wispiness > 0; ++i, height *= 0.5f, octave *= 1.99f)
-            place = place + slopes(place * octave) * height;
-        float sum = 0, share = 0.5f;
-        octave = 1;
-        for (int i = 0; i < 5; ++i, share *= 0.5f, octave *= 1.99f) sum += share * noise(place * octave);
-        const float low = std::clamp((1 - p.y) * 4.5f * density * sum, 0.0f, 1.0f);
-        return std::clamp(low + 2 * std::max(0.0f, 0.5f - p.y), 0.0f, 1.0f);
-    }
-};
 
 }  // namespace
 
@@ -217,62 +141,6 @@ void Media::coloured(Parameters& parameters, Medium& medium, Rgb absorbed, Rgb s
 void Media::even(Parameters& parameters, Medium& medium) {
     coloured(parameters, medium, usual_substance().absorbed, usual_substance().scattered);
     medium.emission.value *= parameters.number("Lescale", 1);
-}
-
-/// Media whose density changes in space.
-bool Media::gridded(const std::string& type, const Matrix& to_world, Parameters& parameters, Medium& medium) {
-    const auto box = box_of(parameters);
-    const auto to_grid = box ? to_cube(*box, to_world) : std::nullopt;
-    if (box && !to_grid) parameters.error("the transform of a medium is singular");
-    if (!to_grid) return false;
-    for (VolumeField* field : {&medium.extinction, &medium.albedo, &medium.emission}) field->to_grid = *to_grid;
-    if (type == "rgbgrid") {
-        const float scale = parameters.number("scale", 1);
-        const auto absorbed = grid_of(parameters, "sigma_a", 3), scattered = grid_of(parameters, "sigma_s", 3);
-        if (!absorbed && !scattered) return false;
-        VolumeGrid sum = absorbed ? *absorbed : *scattered;
-        if (absorbed && scattered)
-            for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += scattered->values[i];
-        medium.extinction.grid = std::make_shared<const VolumeGrid>(std::move(sum));
-        medium.extinction.value = Rgb{scale, scale, scale};
-        medium.albedo.grid = scattered;
-        medium.albedo.value = scattered ? Rgb{scale, scale, scale} : Rgb{};
-        if (parameters.find("Le")) parameters.warn("what an 'rgbgrid' emits ('Le') is left out: it is dark");
-        return true;
-    }
-    coloured(parameters, medium, {1, 1, 1}, {1, 1, 1});
-    if (type == "cloud") {
-        cloud(parameters, medium, *box);
-    } else {
-        medium.extinction.grid = grid_of(parameters, "density", 1);
-        if (parameters.find("temperature"))
-            parameters.warn("what a medium emits by its 'temperature' is left out: it is dark");
-        const Parameter* scale = parameters.find("Lescale");
-        if (scale && scale->numbers.size() > 1)
-            parameters.warn("'Lescale' can't change in space: 1 is taken");
-        else
-            medium.emission.value *= parameters.number("Lescale", 1);
-    }
-    if (!medium.extinction.grid) return false;
-    if (!is_black(medium.albedo.value)) medium.albedo.grid = medium.extinction.grid;
-    if (!is_black(medium.emission.value)) medium.emission.grid = medium.extinction.grid;
-    return true;
-}
-
-void Media::cloud(Parameters& parameters, Medium& medium, const Box& box) {
-    const CloudShape shape{parameters.number("density", 1), parameters.number("wispiness", 1),
-                           parameters.number("frequency", 5)};
-    constexpr std::uint32_t points = 128;
-    VolumeGrid grid;
-    grid.size = {points, points, points};
-    const Vec3 size = box.size();
-    for (std::uint32_t z = 0; z < points; ++z)
-        for (std::uint32_t y = 0; y < points; ++y)
-            for (std::uint32_t x = 0; x < points; ++x)
-                grid.values.push_back(
-                    shape.at(box.low + Vec3{(float(x) + 0.5f) / points * size.x, (float(y) + 0.5f) / points * size.y,
-                                            (float(z) + 0.5f) / points * size.z}));
-    medium.extinction.grid = std::make_shared<const VolumeGrid>(std::move(grid));
 }
 
 }  // namespace lightnet::pbrt

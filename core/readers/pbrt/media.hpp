@@ -53,6 +53,9 @@ private:
     void even(Parameters& parameters, Medium& medium);
     void coloured(Parameters& parameters, Medium& medium, Rgb absorbed, Rgb scattered);
     bool gridded(const std::string& type, const Matrix& to_world, Parameters& parameters, Medium& medium);
+    bool shine_of_grid(Parameters& parameters, Medium& medium);
+    bool coloured_grid(Parameters& parameters, Medium& medium);
+    bool nanovdb(const Matrix& to_world, Parameters& parameters, Medium& medium);
     void cloud(Parameters& parameters, Medium& medium, const Box& box);
     std::optional<Rgb> colour(Parameters& parameters, const char* name);
 

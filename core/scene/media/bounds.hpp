@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/scene/media/medium.hpp"
@@ -27,7 +28,8 @@ public:
 private:
     static constexpr std::uint32_t most_cells = 32;  // along an axis
 
-    float most_in(std::array<std::uint32_t, 3> cell, const VolumeField& extinction) const;
+    float most_in(std::array<std::uint32_t, 3> cell, const VolumeField& extinction,
+                  std::span<const float> of_blocks) const;
     std::size_t index(const std::array<std::int64_t, 3>& cell) const {
         return std::size_t((cell[2] * size_[1] + cell[1]) * size_[0] + cell[0]);
     }

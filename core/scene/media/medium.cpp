@@ -9,12 +9,25 @@ namespace {
 
 bool sound(Rgb colour) { return finite(colour) && colour.r >= 0 && colour.g >= 0 && colour.b >= 0; }
 
+bool sound(const VolumeGrid& grid) {
+    if (grid.channels != 1 && grid.channels != 3) return false;
+    if (grid.blocks.empty()) {
+        if (grid.values.size() != grid.points() * grid.channels) return false;
+    } else {
+        const auto whole = [](std::uint32_t size) { return size % VolumeGrid::block_side == 0; };
+        const std::size_t each = std::size_t{VolumeGrid::block_points} * grid.channels,
+                          stored = grid.values.size() / each;
+        if (!std::all_of(grid.size.begin(), grid.size.end(), whole) || grid.values.size() % each != 0 ||
+            grid.blocks.size() != grid.points() / VolumeGrid::block_points ||
+            !std::all_of(grid.blocks.begin(), grid.blocks.end(), [&](std::uint32_t block) { return block < stored; }))
+            return false;
+    }
+    return std::all_of(grid.values.begin(), grid.values.end(), [](float v) { return std::isfinite(v) && v >= 0; });
+}
+
 bool sound(const VolumeField& field) {
     if (!sound(field.value)) return false;
-    if (!field.grid) return true;
-    const VolumeGrid& grid = *field.grid;
-    return (grid.channels == 1 || grid.channels == 3) && grid.values.size() == grid.points() * grid.channels &&
-           std::all_of(grid.values.begin(), grid.values.end(), [](float v) { return std::isfinite(v) && v >= 0; });
+    return !field.grid || sound(*field.grid);
 }
 
 Rgb mixed(Rgb a, Rgb b, float part) { return a * (1 - part) + b * part; }
@@ -33,14 +46,21 @@ Between between(float place, std::uint32_t size) {
 
 Rgb VolumeGrid::point(std::int64_t x, std::int64_t y, std::int64_t z) const {
     const std::array<std::int64_t, 3> wanted{x, y, z};
-    std::size_t index = 0;
-    for (std::size_t axis = 3; axis-- > 0;) {
+    std::array<std::uint32_t, 3> at;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto within = std::clamp<std::int64_t>(wanted[axis], 0, std::int64_t{size[axis]} - 1);
         if (fades && within != wanted[axis]) return {};
-        index = index * size[axis] + static_cast<std::size_t>(within);
+        at[axis] = static_cast<std::uint32_t>(within);
     }
-    const float* value = values.data() + index * channels;
+    const float* value = values.data() + index_of(at) * channels;
     return channels == 3 ? Rgb{value[0], value[1], value[2]} : Rgb{value[0], value[0], value[0]};
+}
+
+std::size_t VolumeGrid::index_of(const std::array<std::uint32_t, 3>& at) const {
+    if (blocks.empty()) return (std::size_t{at[2]} * size[1] + at[1]) * size[0] + at[0];
+    constexpr std::uint32_t side = block_side;
+    const std::uint32_t within = (at[2] % side * side + at[1] % side) * side + at[0] % side;
+    return std::size_t{block_of(at)} * block_points + within;
 }
 
 Rgb VolumeGrid::at(Vec3 place) const {
@@ -59,6 +79,7 @@ Hash VolumeGrid::content() const {
     const std::array<std::uint32_t, 3> ways{channels, fades, nearest};
     hasher.add(std::as_bytes(std::span(ways)));
     hasher.add(std::as_bytes(std::span(values)));
+    hasher.add(std::as_bytes(std::span(blocks)));
     return hasher.finish();
 }
 

@@ -22,10 +22,23 @@ struct VolumeGrid {
     std::array<std::uint32_t, 3> size{1, 1, 1};  // x, y, z; each 1 at least
     std::uint32_t channels = 1;                  // 1, or 3: red, green, blue
     std::vector<float> values{};                 // channel by channel of each point; x runs fastest
+    /// Empty: `values` are those of all points. Else the points are in cubes, of which alike ones may be one: for each
+    /// cube, x fastest, which block of `values` it is. `size` is a multiple of a cube's side.
+    std::vector<std::uint32_t> blocks{};
     bool fades = false;    // what lies half a cell beyond the outermost points counts as 0; else as these
     bool nearest = false;  // the nearest point's numbers; else linear between eight
 
+    static constexpr std::uint32_t block_side = 8, block_points = block_side * block_side * block_side;
+
     std::size_t points() const { return std::size_t{size[0]} * size[1] * size[2]; }
+    std::size_t memory() const { return values.size() * sizeof(float) + blocks.size() * sizeof(std::uint32_t); }
+    /// Which block a point lies in, if there are blocks.
+    std::uint32_t block_of(const std::array<std::uint32_t, 3>& at) const {
+        const std::size_t wide = size[0] / block_side, high = size[1] / block_side;
+        return blocks[(at[2] / block_side * high + at[1] / block_side) * wide + at[0] / block_side];
+    }
+    /// Of a point: in `values`, counted in points.
+    std::size_t index_of(const std::array<std::uint32_t, 3>& at) const;
     Rgb point(std::int64_t x, std::int64_t y, std::int64_t z) const;
     /// At a place in the unit cube; outside of it what the nearest place there has.
     Rgb at(Vec3 place) const;
