@@ -97,10 +97,10 @@ Target pasts();
 Target words();
 
 inline std::vector<Target> all_targets() {
-    return {packets(),       scenes(),   meshes(),   texts(),   mitsuba(),   gltf(),          obj(),
-            serialized(),    strands(),  pictures(), films(),   manifests(), jobs(),          checkpoints(),
-            graphs(),        keys(),     gates(),    watched(), rays_pbrt(), rays_mitsuba(),  rays_gltf(),
-            rays_obj(),      customs(),  kept(),     pasts(),   words(),     conversations(), lines(),
+    return {packets(),       scenes(),   meshes(),   texts(),   mitsuba(),       gltf(),          obj(),
+            serialized(),    strands(),  pictures(), films(),   manifests(),     jobs(),          checkpoints(),
+            graphs(),        keys(),     gates(),    watched(), rays_pbrt(),     rays_mitsuba(),  rays_gltf(),
+            rays_obj(),      customs(),  kept(),     pasts(),   words(),         conversations(), lines(),
             rare_pictures(), measured(), profiles(), volumes(), sparse_volumes()};
 }
 
