@@ -42,13 +42,6 @@ double machine_started() {
     return 0;
 }
 
-// /proc/self/stat counts in ticks of 10 ms: a process that has just begun would have taken nothing.
-double processor_seconds() {
-    timespec taken{};
-    if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &taken) != 0) return 0;
-    return static_cast<double>(taken.tv_sec) + static_cast<double>(taken.tv_nsec) * 1e-9;
-}
-
 std::uint64_t open_descriptors() {
     std::error_code fault;
     std::uint64_t count = 0;
@@ -59,6 +52,13 @@ std::uint64_t open_descriptors() {
 }
 
 }  // namespace
+
+// /proc/self/stat counts in ticks of 10 ms: a process that has just begun would have taken nothing.
+double processor_seconds() {
+    timespec taken{};
+    if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &taken) != 0) return 0;
+    return static_cast<double>(taken.tv_sec) + static_cast<double>(taken.tv_nsec) * 1e-9;
+}
 
 ProcessFigures process_figures() {
     const auto stat = own_stat();

@@ -14,6 +14,8 @@ struct ProcessFigures {
     std::uint64_t descriptors = 0, most_descriptors = 0;  // open, and that it may have
 };
 ProcessFigures process_figures();
+/// That all its threads have had so far; 0 where the system doesn't say.
+double processor_seconds();
 /// How many threads this process has; 0 where the system doesn't say.
 std::uint64_t own_threads();
 

@@ -7,6 +7,9 @@
 #include <thread>
 #include <utility>
 
+#include "core/base/own_process.hpp"
+#include "core/base/this_machine.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -90,6 +93,8 @@ HostFigures SamplingProfiler::figures() const {
                                     counts.answered.get()};
         }
     }
+    figures.clock_ns = steady_nanoseconds();
+    figures.processor_ns = static_cast<std::uint64_t>(processor_seconds() * 1e9);
     return figures;
 }
 

@@ -18,6 +18,8 @@ public:
 
     /// Seconds to prepare and to render; infinite where a node that the picture needs is nowhere.
     double seconds(const HeldByHosts& holds);
+    /// By host, of the layout that was estimated last: how much each has to do, beside the others.
+    const std::vector<double>& busy() const { return busy_; }
     /// How much work one estimate is, in steps of some nanoseconds.
     std::size_t steps() const { return rounds * (costs_.nodes.size() + costs_.edges.size()) * hosts_.size(); }
 

@@ -67,6 +67,7 @@ std::string to_text(const HostFigures& figures) {
     put(figures.edges.size());
     for (const auto& edge : figures.edges)
         for (const auto member : of_edge) put(edge.*member);
+    put(figures.clock_ns), put(figures.processor_ns);
     return text;
 }
 
@@ -80,6 +81,7 @@ std::optional<HostFigures> figures_from(std::string_view text) {
         for (auto& node = figures.nodes.emplace_back(); const auto member : of_node) node.*member = numbers.next();
     for (auto left = numbers.count(most_references); left > 0 && numbers.sound(); --left)
         for (auto& edge = figures.edges.emplace_back(); const auto member : of_edge) edge.*member = numbers.next();
+    figures.clock_ns = numbers.next(), figures.processor_ns = numbers.next();
     if (!numbers.finished()) return std::nullopt;
     return figures;
 }

@@ -47,6 +47,8 @@ struct HostFigures {
     std::vector<PlaceFigures> places;  // by index
     std::vector<NodeFigures> nodes;    // as in the graph
     std::vector<EdgeFigures> edges;    // see asking_edges()
+    std::uint64_t clock_ns = 0;        // of the host, when it said so
+    std::uint64_t processor_ns = 0;    // that its process has had by then, all threads together
     friend bool operator==(const HostFigures&, const HostFigures&) = default;
 };
 
