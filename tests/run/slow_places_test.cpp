@@ -95,6 +95,102 @@ TEST_F(SlowPlaces, KeepWhatOnlyTheyHave) {
     EXPECT_EQ(coordinator.in_force().places_of[2], std::vector<std::uint32_t>{1});
 }
 
+// A node that moves is asked where it was, until it is prepared where it goes.
+TEST_F(SlowPlaces, AreNotWaitedForByThoseWhoAskWhatMoves) {
+    const std::size_t caustics = 1;
+    const StepReport done{StepReport::Kind::done, 0, 0};
+    const auto lead = [&] {
+        EXPECT_TRUE(coordinator.prepare(std::chrono::milliseconds(2)));
+        while (coordinator.receive()) {
+        }
+        return coordinator.in_force().places_of[caustics];
+    };
+    Plan plan = coordinator.proposed();
+    plan.places_of[caustics] = {0};
+    coordinator.propose(plan);
+    places.answer(places.take(), done);
+    const auto at_b = places.take();  // what b was asked before; nobody waits for it
+    ASSERT_EQ(lead(), std::vector<std::uint32_t>{0});
+
+    plan.places_of[caustics] = {1};
+    coordinator.propose(plan);
+    EXPECT_EQ(at_b.place.host, "b");
+    EXPECT_EQ(lead(), std::vector<std::uint32_t>{0}) << "b still prepares it";
+    EXPECT_EQ(coordinator.in_force().places_of[2], (std::vector<std::uint32_t>{0, 1})) << "and does the rest";
+    places.answer(at_b, done);
+    EXPECT_EQ(lead(), std::vector<std::uint32_t>{1});
+    EXPECT_EQ(coordinator.in_force(), plan);
+
+    plan.places_of[caustics] = {0};
+    coordinator.propose(plan);
+    EXPECT_EQ(lead(), std::vector<std::uint32_t>{0}) << "a has it still";
+}
+
+// Its place lets go of it when it is asked no more, and prepares it anew when it comes back.
+TEST(PlacesLeft, LetGoOfWhatTheyHad) {
+    const std::size_t caustics = 1;
+    const StepReport done{StepReport::Kind::done, 0, 0};
+    const Registry kinds = test::with_learner();
+    const Graph graph = coordinator_test::mapping(kinds);
+    Coordinator::Options options;
+    options.run = 1, options.graph = &graph, options.registry = &kinds;
+    options.let_go_after = 0;
+    ByHand places;
+    Coordinator coordinator(std::move(options), places);
+    const auto hear = [&] {
+        while (coordinator.receive()) {
+        }
+        coordinator.wait({});
+    };
+    Plan plan{{{"a", 0}, {"b", 0}}, {{}, {0}, {0, 1}}};
+    coordinator.propose(plan);
+    places.answer(places.take(), done);
+    hear();
+    plan.places_of[caustics] = {1};
+    coordinator.propose(plan);
+    hear();
+    auto at_b = places.take();
+    EXPECT_TRUE(at_b.of_kind(Step::Kind::prepare));
+    EXPECT_TRUE(places.asked.empty()) << "a is still asked";
+    places.answer(std::move(at_b), done);
+    hear();
+    const auto at_a = places.take();
+    EXPECT_EQ(at_a.place.host, "a");
+    EXPECT_TRUE(at_a.of_kind(Step::Kind::leave));
+    hear();
+    EXPECT_TRUE(places.asked.empty()) << "once";
+    plan.places_of[caustics] = {0};
+    coordinator.propose(plan);
+    const auto again = places.take();
+    EXPECT_EQ(again.place.host, "a");
+    EXPECT_TRUE(again.of_kind(Step::Kind::prepare));
+}
+
+// A host that leaves is there, and holds nothing any more.
+TEST_F(SlowPlaces, AreNotSparedByAHostThatLeaves) {
+    const std::size_t caustics = 1;
+    Plan plan = coordinator.proposed();
+    plan.places_of[caustics] = {0};
+    coordinator.propose(plan);
+    places.answer(places.take(), StepReport{StepReport::Kind::done, 0, 0});
+    EXPECT_TRUE(coordinator.prepare(std::chrono::milliseconds(2)));
+    plan.places_of = {{}, {1}, {1}};
+    coordinator.propose(plan);
+    EXPECT_TRUE(coordinator.in_force().places_of[caustics].empty());
+}
+
+// Where it was, it isn't any more.
+TEST_F(SlowPlaces, AreWaitedForWhereWhatMovesWasOnALostHost) {
+    const std::size_t caustics = 1;
+    Plan plan = coordinator.proposed();
+    plan.places_of[caustics] = {0};
+    coordinator.propose(plan);
+    places.answer(places.take(), StepReport{StepReport::Kind::done, 0, 0});
+    EXPECT_TRUE(coordinator.prepare(std::chrono::milliseconds(2)));
+    coordinator.propose({{{"b", 0}}, {{}, {0}, {0}}});
+    EXPECT_TRUE(coordinator.in_force().places_of[caustics].empty());
+}
+
 // A rehearsal waits for a while for who is slower, and then goes on without him.
 TEST_F(Rehearsals, BeginWithoutASlowHost) {
     auto at_a = places.take(), at_b = places.take();

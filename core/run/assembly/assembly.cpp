@@ -7,6 +7,7 @@
 #include "core/base/words_of.hpp"
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/network/light/node_context.hpp"
+#include "core/run/assembly/node_that_leaves.hpp"
 
 namespace lightnet {
 namespace {
@@ -129,16 +130,17 @@ Inputs Assembly::inputs_of(std::size_t node) {
 NodeServices Assembly::services_of(std::size_t node) {
     NodeServices services = services_;
     services.rehearsal = &rehearsals_[node];
-    services.off_surface = &off_surface_[node];
+    services.off_surface = &bad_.off_surface[node];
     const auto kept = network_.kept.find(network_.graph.nodes[whole_of(network_.graph, node)].name);
     if (kept != network_.kept.end()) services.kept = kept->second;
     return services;
 }
 
-std::map<std::string, std::uint64_t> Assembly::by_name(const std::map<std::size_t, std::uint64_t>& by_node) const {
+std::map<std::string, std::uint64_t> by_name(const Network& network,
+                                             const std::map<std::size_t, std::uint64_t>& by_node) {
     std::map<std::string, std::uint64_t> counts;
     for (const auto& [node, count] : by_node)
-        if (count) counts[network_.graph.nodes[whole_of(network_.graph, node)].name] += count;
+        if (count) counts[network.graph.nodes[whole_of(network.graph, node)].name] += count;
     return counts;
 }
 
@@ -155,9 +157,22 @@ const LightOp& Assembly::light(std::size_t node) {
     if (network_.renewed[node])
         light = std::make_unique<NodeByPass>(
             [this, node, inputs](std::uint32_t pass) { return make_light(node, inputs, pass); });
+    else if (network_.kind_of(node).run.prepares)
+        light = std::make_unique<NodeThatLeaves>([this, node, inputs] { return make_light(node, inputs, 0); });
     else
         light = make_light(node, inputs, 0);
     return *light;
+}
+
+void Assembly::leave(std::size_t node) {
+    const auto known = lights_.find(node);
+    if (known == lights_.end() || !network_.kind_of(node).run.prepares) return;
+    if (network_.renewed[node])
+        static_cast<NodeByPass&>(*known->second).leave();
+    else
+        static_cast<NodeThatLeaves&>(*known->second).leave();
+    rehearsals_[node] = {};  // by which others know it still
+    network_.shared->forget(node);
 }
 
 void Assembly::prepare(std::size_t node, Services& services, std::uint32_t pass) {

@@ -64,6 +64,24 @@ struct Network {
     std::shared_ptr<const Sectors> sectors(std::size_t node) const;
 };
 
+/// What has no place in a picture, by node: answers, points and questions.
+struct BadLight {
+    std::map<std::size_t, std::uint64_t> not_finite, off_surface, unsound;
+};
+
+/// Counts by node, by its name; nodes that have none are left out, and what has a sector goes by the whole.
+std::map<std::string, std::uint64_t> by_name(const Network& network,
+                                             const std::map<std::size_t, std::uint64_t>& by_node);
+
+/// Of which node they are, the gauge knows, whatever fiber runs.
+struct LostByNode final : LostRays {
+    void lost() override {
+        if (gauge && gauge->doing() >= Gauge::first_node) ++of_node[gauge->doing() - Gauge::first_node];
+    }
+    const Gauge* gauge = nullptr;
+    std::map<std::size_t, std::uint64_t> of_node;
+};
+
 /// The nodes of one place, made when first needed.
 class Assembly {
 public:
@@ -93,45 +111,37 @@ public:
     const LightOp& light(std::size_t node);
     /// Has the node prepare itself; one that is renewed, for this pass.
     void prepare(std::size_t node, Services& services, std::uint32_t pass = 0);
+    /// Others hold the node from now on: what it has learnt is let go of. It prepares again where it comes back.
+    void leave(std::size_t node);
     Rehearsal& rehearsal(std::size_t node);
     Callee callee(std::size_t node) {
         return {light(node),
                 network_.graph.nodes[node].name,
                 network_.width_of(node),
                 network_.kind_of(node).run.whole_calls,
-                &not_finite_[node],
-                &unsound_[node],
+                &bad_.not_finite[node],
+                &bad_.unsound[node],
                 gauge_,
                 Gauge::at(node),
                 network_.kind_of(node).light.space};
     }
     /// Answers that were infinite or no numbers, by name of the node; nodes that gave none are left out.
-    std::map<std::string, std::uint64_t> not_finite() const { return by_name(not_finite_); }
+    std::map<std::string, std::uint64_t> not_finite() const { return by_name(network_, bad_.not_finite); }
     /// Questions about no surface, by name of the node that was asked; nodes that were asked none are left out.
-    std::map<std::string, std::uint64_t> off_surface() const { return by_name(off_surface_); }
+    std::map<std::string, std::uint64_t> off_surface() const { return by_name(network_, bad_.off_surface); }
     /// Of questions whose numbers were not finite, by the node that was asked.
-    std::map<std::string, std::uint64_t> unsound_questions() const { return by_name(unsound_); }
+    std::map<std::string, std::uint64_t> unsound_questions() const { return by_name(network_, bad_.unsound); }
     /// Of rays that could not be traced, by the node that was at work.
-    std::map<std::string, std::uint64_t> lost_rays() const { return by_name(lost_rays_.of_node); }
+    std::map<std::string, std::uint64_t> lost_rays() const { return by_name(network_, lost_rays_.of_node); }
     /// To be told of this thread's while its nodes are at work.
     LostRays& keeper_of_lost_rays() { return lost_rays_; }
     const Renderer& renderer(std::size_t node);
 
 private:
-    // The gauge knows who that is, whatever fiber runs.
-    struct LostByNode final : LostRays {
-        void lost() override {
-            if (gauge && gauge->doing() >= Gauge::first_node) ++of_node[gauge->doing() - Gauge::first_node];
-        }
-        const Gauge* gauge = nullptr;
-        std::map<std::size_t, std::uint64_t> of_node;
-    };
-
     std::unique_ptr<LightOp> make_light(std::size_t node, const Inputs& inputs, std::uint32_t pass);
     Inputs inputs_of(std::size_t node);
     Port* port_between(std::size_t asker, std::size_t asked, std::size_t width);
     NodeServices services_of(std::size_t node);
-    std::map<std::string, std::uint64_t> by_name(const std::map<std::size_t, std::uint64_t>& by_node) const;
 
     const Network& network_;
     PortTo port_to_;
@@ -141,7 +151,7 @@ private:
     Gauge* gauge_ = nullptr;
     std::vector<std::unique_ptr<Port>> guarded_;
     std::map<std::size_t, Rehearsal> rehearsals_;
-    std::map<std::size_t, std::uint64_t> not_finite_, off_surface_, unsound_;
+    BadLight bad_;
     LostByNode lost_rays_;
     std::map<std::size_t, std::unique_ptr<LightOp>> lights_;
     std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;

@@ -21,6 +21,8 @@ public:
 
     /// From now on, it is that of this pass.
     void begin(std::uint32_t pass) const;
+    /// What it has learnt is let go of. Where it is to prepare again, it is made anew.
+    void leave() { now_ = before_ = {}; }
 
     /// Prepares it for the pass that has begun.
     void prepare(Services& services) override;

@@ -78,6 +78,11 @@ SharedValue::Value SharedValues::get(std::size_t node, std::uint32_t index, cons
     return value->get(watch, make);
 }
 
+void SharedValues::forget(std::size_t node) {
+    const std::lock_guard lock(mutex_);
+    values_.erase(values_.lower_bound({node, 0, 0}), values_.lower_bound({node + 1, 0, 0}));
+}
+
 std::size_t SharedValues::size() {
     const std::lock_guard lock(mutex_);
     return values_.size();

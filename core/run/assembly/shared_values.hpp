@@ -57,6 +57,8 @@ public:
     /// who ask.
     Value get(std::size_t node, std::uint32_t index, const SharedValue::Watch& watch, const SharedValue::Make& make,
               std::uint32_t pass = 0);
+    /// The node has left all places of the process: its values go with the last of them that looks at one.
+    void forget(std::size_t node);
     /// How many are kept here.
     std::size_t size();
 

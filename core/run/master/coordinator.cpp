@@ -24,8 +24,8 @@ Coordinator::Coordinator(Options options, Carrier& carrier)
                     [&](const Node& node) { return options_.registry->find(node.kind)->run.locks; }))
         locks_.emplace([this](const PlaceAt& place, const Step& step) { return send({{place, 0}, 0, step}); });
     calls_.verify(options_.verify);
-    proposal_.places_of.resize(options_.graph->nodes.size());
-    in_force_ = proposal_;
+    plans_.proposed.places_of.resize(options_.graph->nodes.size());
+    plans_.in_force = plans_.proposed;
 }
 
 Coordinator::~Coordinator() = default;
@@ -33,9 +33,10 @@ Coordinator::~Coordinator() = default;
 // ---- plans ----------------------------------------------------------------------------------------------------------
 
 void Coordinator::propose(const Plan& plan) {
-    std::set<PlaceAt> gone(proposal_.places.begin(), proposal_.places.end());
+    std::set<PlaceAt> gone(plans_.proposed.places.begin(), plans_.proposed.places.end());
     for (const auto& place : plan.places) gone.erase(place);
-    proposal_ = plan;
+    const Plan before = std::exchange(plans_.proposed, plan);
+    note_who_left(before);
     lose(gone);
     keep_dealing();
     if (rehearsal_ && !std::all_of(rehearsal_->copies().begin(), rehearsal_->copies().end(),
@@ -72,7 +73,8 @@ std::vector<std::size_t> Coordinator::nodes_at(std::size_t position) const {
 std::vector<NodeCopy> Coordinator::copies(std::size_t position) const {
     std::vector<NodeCopy> copies;
     for (const auto node : nodes_at(position))
-        for (const auto place : proposal_.places_of[node]) copies.push_back({proposal_.places[place], node});
+        for (const auto place : plans_.proposed.places_of[node])
+            copies.push_back({plans_.proposed.places[place], node});
     return copies;
 }
 
@@ -111,11 +113,7 @@ void Coordinator::advance() {
     for (std::size_t position = 0; position < led(); ++position) deal(position);
     collect();
     enforce();
-    attend();
-}
-
-void Coordinator::attend() {
-    if (locks_) locks_->attend(proposal_.places);
+    if (locks_) locks_->attend(plans_.proposed.places);
 }
 
 void Coordinator::lead(const NodeCopy& copy, std::size_t position) {
@@ -132,7 +130,7 @@ void Coordinator::lead(const NodeCopy& copy, std::size_t position) {
         auto& call = calls_.reported(copy.node, follower.at);
         const auto result = calls_.result(copy.node, follower.at.call);
         if (!result) {
-            if (call.shared_out()) call.join(copy, proposal_.process_of(copy.place.host), steady_seconds());
+            if (call.shared_out()) call.join(copy, plans_.proposed.process_of(copy.place.host), steady_seconds());
             return;
         }
         const Hash& name = call.name(calls_.part_of(copy.node, call));
@@ -167,10 +165,12 @@ void Coordinator::take(Message message) {
     const bool shards = sent.step.kind == Step::Kind::shards;
     if (shards && !calls_.of(order_[sent.position], sent.step.call).dealer().shards_of(sent.shards))
         return;  // another place was first
+    if (sent.step.kind == Step::Kind::leave) return;
     if (message.type == Message::Type::failure) return failed(sent, message.trouble.why);
     if (sent.step.kind == Step::Kind::attend) {
-        if (locks_) locks_->hear(sent.to.place, message.data);
-        attend();
+        if (!locks_) return;
+        locks_->hear(sent.to.place, message.data);
+        locks_->attend(plans_.proposed.places);
     } else if (sent.step.kind == Step::Kind::grant) {
         return;
     } else if (shards) {
@@ -291,8 +291,9 @@ std::optional<Message> Coordinator::receive() {
 void Coordinator::wait(std::chrono::nanoseconds most) {
     if (!arrived_.empty()) return;
     carrier_.wait(most);
-    if (!followers_.empty() && in_force_ != proposal_) advance();  // someone is catching up
-    attend();
+    if (!followers_.empty() && plans_.in_force != plans_.proposed) advance();  // someone is catching up
+    if (locks_) locks_->attend(plans_.proposed.places);
+    let_go_of_left();
 }
 
 const std::string& Coordinator::name_of(std::size_t position) const {

@@ -25,6 +25,13 @@
 
 namespace lightnet {
 
+/// What the carrier offers, and what can be asked of it by now.
+struct CoordinatedPlans {
+    Plan proposed, in_force;
+    double enforced = 0;  // when
+    double looked = 0;    // for copies that have left, when last
+};
+
 /// Stands between the run's carrier and the master renderer. Nodes prepare stage by stage, inputs first, see
 /// stages_of(), each on all places that hold it: shards go to whoever is free, results are put together here, in order,
 /// and brought to all. A stage ends when somebody can answer for each of its nodes: slower places join later.
@@ -45,6 +52,7 @@ public:
         std::string made_from;         // see Recipes
         ResultCache* cache = nullptr;  // may be absent
         std::uint32_t verify = 0;      // millionths of the shards that two hosts are asked
+        double let_go_after = 5;       // seconds, since a node has left a place: who has not heard yet may ask for it
         std::function<void(const std::string&)> say = [](const std::string&) {};
     };
     Coordinator(Options options, Carrier& carrier);
@@ -61,8 +69,8 @@ public:
     /// Another master is to follow the one before, when all is prepared: late replies to that are none to this.
     void begin_master() { epoch_.begin_next(); }
     /// What can be asked now, and what will be.
-    const Plan& in_force() const { return in_force_; }
-    const Plan& proposed() const { return proposal_; }
+    const Plan& in_force() const { return plans_.in_force; }
+    const Plan& proposed() const { return plans_.proposed; }
     /// How far preparing is. Of nodes that prepare at the same time, the first one.
     PrepareProgress progress() const;
     /// What was prepared: node → content hash of all its results.
@@ -90,6 +98,7 @@ private:
         enum class State { idle, asked, waiting, done };
         State state = State::idle;
         StepReport at;
+        double left = 0;  // when the node left its place; 0: it is to be there
     };
     /// A step that was sent and not answered.
     struct Sent {
@@ -130,9 +139,10 @@ private:
     std::set<PlaceAt> behind() const;
     std::set<NodeCopy> copies_to_ask(std::size_t position, const std::set<PlaceAt>& late) const;
     Plan restricted();
-    bool may_be_held_back(const Plan& plan) const;
+    void keep_where_it_was(Plan& plan, std::size_t position) const;
+    void note_who_left(const Plan& before);
+    void let_go_of_left();
     void enforce();
-    void attend();
 
     Options options_;
     Carrier& carrier_;
@@ -141,8 +151,7 @@ private:
     std::vector<std::size_t> stages_;
     std::uint32_t pass_ = 0;
     std::optional<LockClient> locks_;  // none: nobody in the graph locks
-    Plan proposal_, in_force_;
-    double enforced_ = 0;  // when
+    CoordinatedPlans plans_;
     std::deque<Message> arrived_;
     std::map<NodeCopy, Follower> followers_;
     std::map<std::uint64_t, Sent> sent_;

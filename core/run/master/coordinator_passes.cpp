@@ -15,13 +15,14 @@ void Coordinator::begin_pass(std::uint32_t pass) {
     std::erase_if(sent_, [this](const auto& sent) {
         return sent.second.step.kind < Step::Kind::attend && is_renewed(sent.second.position);
     });
-    std::erase_if(followers_, [this](const auto& follower) { return calls_.is_renewed(follower.first.node); });
+    for (auto& [copy, follower] : followers_)
+        if (calls_.is_renewed(copy.node)) follower.state = Follower::State::idle, follower.at = {};
     for (std::size_t position = first; position < order_.size(); ++position)
         if (is_renewed(position)) calls_.forget(order_[position]);
     known_prepared_.clear();
     end_rehearsal();  // late replies to the master before are no answers to the next
     done_ = std::min(done_, first);
-    if (!proposal_.places.empty()) advance();
+    if (!plans_.proposed.places.empty()) advance();
 }
 
 }  // namespace lightnet

@@ -69,7 +69,7 @@ void Coordinator::begin_rehearsal(const std::set<NodeCopy>& taking_part) {
     epoch_.begin_next();
     rehearsal_ = std::make_unique<ConductedRehearsal>(call, taking_part, std::move(job), *this);
     enforce();  // who could not be asked because of the rehearsal before can be now
-    rehearsal_->use(in_force_);
+    rehearsal_->use(plans_.in_force);
 }
 
 void Coordinator::noted(const Sent& sent, const Bytes& data) {

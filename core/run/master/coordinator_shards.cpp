@@ -33,7 +33,7 @@ void Coordinator::keep_dealing() {
         for (const auto& [number, call] : calls_.dealt_out(order_[position])) {
             const auto all = copies(position);
             auto& dealer = call->dealer();
-            dealer.keep(proposal_, {all.begin(), all.end()}, steady_seconds());
+            dealer.keep(plans_.proposed, {all.begin(), all.end()}, steady_seconds());
             if (const auto& convicted = dealer.convicted()) throw Error(name_of(position), describe(*convicted));
         }
 }
@@ -68,7 +68,7 @@ bool Coordinator::end_calls() {
                 [&, number = number, call = call](const auto& copy) { return will_join(copy, number, *call); });
             const bool all_there = call->all_there(more_to_come);
             if (auto lie = call->lie()) {
-                if (!answers_alone(proposal_, *options_.graph, order_[position])) lie->host.clear();
+                if (!answers_alone(plans_.proposed, *options_.graph, order_[position])) lie->host.clear();
                 carrier_.doubt(*lie);
             }
             if (!all_there) continue;

@@ -21,6 +21,7 @@ struct Step {
         go_on,    // the result of call `call` is there: `data` names it. Answered by the next StepReport
         shards,   // do `count` shards of call `call`, from `first` on; answered by join_shards() of their results
         collect,  // answered by what the node has noted in the rehearsal that is call `call`; `first` is the asker's
+        leave,    // others hold the node: what it has learnt is let go of. Answered when that is done
         attend,   // answered by LockWords as soon as there are some; `call` 1: by all that holds now, once more
         grant,    // the lock that `data` names belongs to this place until it says otherwise
         last = grant,

@@ -195,6 +195,8 @@ void Place::take(Message message) {
         case Message::Type::ask: {
             if (message.run != run_ || !inbox_.knows(message.node)) return;
             const auto* steps = std::get_if<Questions<Step>>(&message.questions);
+            // Whoever asks what has left has not heard of several plans: he asks others when nobody answers.
+            if (!steps && preparer_.has_left(message.node)) return void(++counters_.cancelled);
             if (!steps || (*steps)->front().kind == Step::Kind::shards) return inbox_.take(std::move(message));
             if ((*steps)->front().kind >= Step::Kind::attend) return locks_.take(std::move(message));
             if (network_.kind_of(message.node).run.prepares) preparer_.take(std::move(message));

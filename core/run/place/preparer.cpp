@@ -224,14 +224,27 @@ Preparer::Preparer(const Network& network, Assembly& assembly, Fibers& fibers, P
 
 Preparer::~Preparer() = default;
 
+// Its fiber may still be on its way out: it has itself as long.
+void Preparer::leave(Message ask) {
+    if (const auto known = nodes_.find(ask.node); known != nodes_.end()) {
+        known->second->cancel();
+        nodes_.erase(known);
+    }
+    assembly_.leave(ask.node);
+    left_.insert(ask.node);
+    place_.reply(reply_to(ask));
+}
+
 void Preparer::take(Message ask) {
     const std::size_t index = ask.node;
+    if (step_of(ask).kind == Step::Kind::leave) return leave(std::move(ask));
     const auto pass = pass_of_call(step_of(ask).call);
     auto& known = nodes_[index];
     if (known && pass < known->pass()) return;  // nobody waits for the answer any more
     if (!known || pass > known->pass()) {
         if (known) known->cancel();
         known = std::make_shared<Node>(*this, index, pass);
+        left_.erase(index);
         to_start_.push_back(known);
     }
     switch (step_of(ask).kind) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ public:
     /// Does shards, in a fiber of the node: the first, and as many more of them as take little time and room; whoever
     /// asked hands out the others again. Throws Error when the node does not wait for them.
     Bytes shards(std::size_t node, const Step& step);
+    /// Has the node left the place, and not come back? It can't be asked, then.
+    bool has_left(std::size_t node) const { return left_.contains(node); }
     /// What all its nodes have been given so far.
     std::uint64_t result_bytes() const;
     /// Of one node, so far.
@@ -57,6 +60,9 @@ private:
     PlaceHooks place_;
     std::map<std::size_t, std::shared_ptr<Node>> nodes_;  // as they prepare for the latest pass
     std::deque<std::shared_ptr<Node>> to_start_;
+    void leave(Message ask);
+
+    std::set<std::size_t> left_;  // nodes
     std::map<std::size_t, Spent> spent_;
 };
 
