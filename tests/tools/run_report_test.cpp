@@ -16,6 +16,7 @@ RunReport small_report() {
     report.mode = "threads";
     report.places = {{"", 0, {"direct", "image"}}, {"tcp://onyx1:7777", 1, {"direct"}}};
     report.phases = {{"load", 0.5}, {"render", 12.25}};
+    report.moves = {{7, 4.5, 0.25, {"direct goes from a to b"}}};
     report.counters = {{"questions", 18446744073709551615ull}, {"tiles", 64}};
     report.settings = {{"samples", "16"}};
     report.warnings = {"a \"quoted\" name"};
@@ -29,6 +30,8 @@ TEST(RunReport, IsJsonThatSaysWhatRanWhere) {
     EXPECT_EQ(json["places"][1]["host"], "tcp://onyx1:7777");
     EXPECT_EQ(json["places"][0]["nodes"][1], "image");
     EXPECT_EQ(json["phases"][1]["seconds"], 12.25);
+    EXPECT_EQ(json["moves"][0]["seconds"], 4.5);
+    EXPECT_EQ(json["moves"][0]["nodes"][0], "direct goes from a to b");
     EXPECT_EQ(json["counters"]["questions"], 18446744073709551615ull);
     EXPECT_EQ(json["warnings"][0], "a \"quoted\" name");
 }

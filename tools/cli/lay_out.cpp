@@ -175,6 +175,7 @@ Loaded laid_out(const RunningOptions& running, const Launcher& launcher, Loaded 
                                : costs_for(loaded.graph, launcher.registry, running.layout.substr(by_report.size()));
     const auto layout = place_nodes(costs, facts, {});
     loaded.hosts = hosts_of(layout.holds, costs, facts, std::move(loaded.hosts));
+    loaded.laid_out = std::make_shared<const LaidOut>(LaidOut{costs, facts, {}, layout.holds});
     for (const auto& reason : layout.why)
         if (running.progress != ProgressMode::none) launcher.err << "layout: " << reason << '\n';
     if (!running.layout_out.empty()) write_file(running.layout_out, hosts_file_text(loaded.hosts, layout.why));

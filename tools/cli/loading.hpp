@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/kind.hpp"
+#include "core/run/forecast/mover.hpp"
 #include "lua/graph_reader.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/render.hpp"
@@ -38,6 +40,7 @@ struct Loaded {
     Graph graph;  // checked
     Hosts hosts;  // those for this process have their number of places
     std::vector<Problem> warnings, notes;
+    std::shared_ptr<const LaidOut> laid_out{};  // by what they hold what they do; null: somebody has said so
 };
 
 /// Applies what the user wants otherwise, and checks all of it. Throws UserError that names all problems of the graph,

@@ -66,6 +66,7 @@ RunRequest request_of(const RunningOptions& running, const Launcher& launcher, L
     request.output = output_file(loaded.graph, registry, running.picture);
     request.graph = std::move(loaded.graph);
     request.hosts = std::move(loaded.hosts);
+    request.laid_out = std::move(loaded.laid_out);
     request.keys = std::move(keys);
     request.tuning.trace = !running.trace.empty();
     request.local_workers = running.local_workers.value_or(0);

@@ -15,6 +15,7 @@
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/readers/files/files.hpp"
+#include "core/run/forecast/mover.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "tools/http/watch_rules.hpp"
@@ -86,6 +87,7 @@ struct RunSettings {
 struct RunRequest : RunSettings {
     Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
     Hosts hosts;  // to be called, or that join by name; and places of this process
+    std::shared_ptr<const LaidOut> laid_out;  // by what `hosts` hold what they do; null: somebody has said so
     Mode mode = Mode::serial;
     std::uint32_t threads = 0;                      // places in this process, as many as `hosts` names if it names any
     std::uint32_t local_workers = 0;                // mode network: daemons to start

@@ -222,7 +222,7 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
         TilesByPass passes(what_.job.graph, what_.registry, tiles);
         while (!passes.empty() && !ended()) hand_out_pass(coordinator, passes, crowd, attention);
     }
-    if (what_.request.tuning.verify && !stopped()) write_kept();  // nobody was found to have lied
+    if (what_.request.tuning.verify && !signals_.any) write_kept();  // nobody was found to have lied
 }
 
 // Prepares for the next pass, as far as that is still to be done, and has its tiles rendered.
@@ -251,6 +251,7 @@ void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, con
     master.use(coordinator.in_force());
     while (!ended() && !master.work(50ms)) {
         crowd.look_around(master.renderers());
+        crowd.move();
         show(crowd);
     }
     if (signals_.terminated) {
@@ -274,8 +275,10 @@ Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
     options.job = what_.job;
     options.files = files.seen();
     options.plan = [this](const std::vector<HostOffer>& offers) {
+        if (moves_ && !whole_) return moves_->plan(offers);
         return lightnet::plan(what_.job.graph, what_.registry, whole_ ? Hosts{} : what_.request.hosts, offers);
     };
+    options.moved = [this] { return moves_ && moves_->take_change(); };
     options.say = [this](const std::string& text) { book_.say(text); };
     options.warn = [this](const std::string& text) { book_.warn(text); };
     return options;
@@ -283,6 +286,9 @@ Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
 
 void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     book_.phase("prepare");
+    if (what_.request.laid_out && what_.job.graph.sectors.empty())
+        moves_.emplace(*what_.request.laid_out, Moves::Of{what_.job.graph, what_.registry, what_.request.hosts});
+    if (moves_ && !moves_->may_move()) moves_.reset();
     auto options = cluster_options(files);
     options.liars = liars_;
     if (what_.request.threads)
@@ -329,18 +335,6 @@ void Rendering::begin_anew(Crew& crew, const Failure& lie) {
     crew.begin_anew(id_, liars_, what_.request.threads ? network_of_files() : nullptr);
 }
 
-// Who alone holds a node can say of it what he likes.
-void Rendering::warn_of_unverified(const Plan& plan) {
-    if (!what_.request.tuning.verify) return;
-    for (std::size_t node = 0; node < plan.places_of.size(); ++node) {
-        std::set<std::string> hosts;
-        for (const auto place : plan.places_of[node]) hosts.insert(plan.places[place].host);
-        if (hosts.size() == 1 && !hosts.begin()->empty())
-            book_.alert(fmt::format("node '{}' is at {} alone, so nobody can verify what it answers there",
-                                    what_.job.graph.nodes[node].name, *hosts.begin()));
-    }
-}
-
 // For places of this process, which keep what they have learnt with the network.
 std::shared_ptr<const Network> Rendering::network_of_files() const {
     DiskFiles files;
@@ -382,16 +376,16 @@ void Rendering::on(Crew& crew) {
             throw Error(fmt::format("node '{}' has no place any more, and no host came within {} s", name,
                                     what_.request.wait.count()));
     };
-    if (book_.shown()) cluster.watch();
+    if (book_.shown() || moves_) cluster.watch();
     hand_out(cluster, cluster.plan(),
              {look_around, [&] { return cluster.doing(); }, [&] { return cluster.hosts(); },
-              [&](const std::string& host) { return cluster.drain(host); }, trust});
+              [&](const std::string& host) { return cluster.drain(host); }, trust, [&] { move_nodes(cluster); }});
     book_.show_last([&] { return cluster.hosts(); });
     book_.use(cluster.plan(), what_.job.graph);
     for (const auto& host : cluster.hosts()) book_.use(host);
-    const auto counted = cluster.finish(stopped() ? 300ms : 1000ms);
-    if (!stopped()) trust();  // a word of the last moment
-    for (const auto& host : cluster.hosts()) book_.note_memory(host);
+    const auto counted = cluster.finish(signals_.any ? 300ms : 1000ms);
+    if (!signals_.any) trust();  // a word of the last moment
+    for (const auto& host : cluster.hosts()) book_.use(host);
     book_.count(counted);
 }
 

@@ -24,6 +24,7 @@
 #include "tools/session/crew.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/kept_files.hpp"
+#include "tools/session/moves.hpp"
 #include "tools/session/run_recorder.hpp"
 #include "tools/support/signals.hpp"
 #include "transport/launcher/cluster.hpp"
@@ -40,6 +41,9 @@ struct Assignment {
     const KeptFiles& kept;
     Handover* handover = nullptr;  // between the runs of a sequence; null: this one is alone
 };
+
+/// This process as a host, for display.
+HostState this_process(std::uint32_t places, HostFigures figures);
 
 /// One thread's. Tiles go into the book; a signal ends it early, and so does the book's limit of time.
 class Rendering {
@@ -66,19 +70,19 @@ private:
         std::function<std::vector<HostState>()> hosts;
         std::function<bool(const std::string& host)> drain;  // none: nobody can be taken out
         std::function<void()> trust = [] {};                 // throws when somebody has lied
+        std::function<void()> move = [] {};                  // nodes, where that pays; called as often as look_around
     };
     void show(const Crowd& crowd);
     void obey(const WatchCommand& wish, const Crowd& crowd);
     class Attention;
-    static HostState this_process(std::uint32_t places, HostFigures figures);
+    void move_nodes(const Cluster& cluster);
     void render(SerialRun& run);
     void hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd);
     void hand_out_pass(Coordinator& coordinator, TilesByPass& passes, const Crowd& crowd, const Attention& attention);
     bool prepare(Coordinator& coordinator, const Crowd& crowd);
     ResultCache* cache();
     std::uint32_t tiles_per_place(const Plan& plan) const;
-    bool stopped() const { return signals_.any; }
-    bool ended() const { return stopped() || book_.time_is_over(); }
+    bool ended() const { return signals_.any || book_.time_is_over(); }
 
     Assignment what_;
     RunRecorder& book_;
@@ -88,6 +92,7 @@ private:
     std::uint64_t id_;
     std::set<std::string> liars_;  // hosts that take no part any more
     bool whole_ = false;           // each host is to hold the whole network, whatever the hosts file says
+    std::optional<Moves> moves_;   // none: nodes stay where they are
 };
 
 }  // namespace lightnet

@@ -244,14 +244,22 @@ void RunRecorder::end_checkpoint(bool stays) {
 }
 
 void RunRecorder::use(const HostState& host) {
+    const auto known = std::find_if(report_.hosts.begin(), report_.hosts.end(),
+                                    [&](const auto& one) { return one.host == shown_host(host.name); });
+    if (known != report_.hosts.end()) {
+        known->peak_memory = std::max(known->peak_memory, host.peak_memory);
+        return;
+    }
     const auto& machine = host.machine;
     report_.hosts.push_back({shown_host(host.name), host.state, machine.name, machine.cpu, machine.isa, machine.version,
                              machine.cores, machine.memory, host.places, host.peak_memory});
 }
 
-void RunRecorder::note_memory(const HostState& host) {
-    for (auto& known : report_.hosts)
-        if (known.host == shown_host(host.name)) known.peak_memory = std::max(known.peak_memory, host.peak_memory);
+void RunRecorder::moved(const Move& move) {
+    MoveReport entry{steady_nanoseconds(), std::chrono::duration<double>(Clock::now() - begun_).count(), move.gain, {}};
+    entry.nodes = move.who;
+    say(fmt::format("{}; what is left is to take {:.0f} % less time", fmt::join(move.who, ", "), 100 * move.gain));
+    report_.moves.push_back(std::move(entry));
 }
 
 void RunRecorder::name_bad_light(const Graph& graph) {
@@ -357,7 +365,7 @@ std::filesystem::path RunRecorder::report_file(const std::string& exr, const std
 void RunRecorder::write_trace() {
     if (trace_.empty() || counters_.traces.empty()) return;
     try {
-        write_file(trace_, to_trace_json(counters_.traces, graph_nodes_));
+        write_file(trace_, to_trace_json(counters_.traces, graph_nodes_, report_.moves));
         report_.outputs.push_back(trace_);
     } catch (const Error& error) {
         alert(std::string("no trace: ") + error.what());

@@ -20,6 +20,7 @@
 #include "core/network/graph/hosts.hpp"
 #include "core/network/graph/plan.hpp"
 #include "core/run/assembly/prepare_progress.hpp"
+#include "core/run/forecast/mover.hpp"
 #include "core/run/message/counters.hpp"
 #include "tools/pictures/error_curve.hpp"
 #include "tools/pictures/picture_notes.hpp"
@@ -122,10 +123,10 @@ public:
     /// Warns of the nodes that made what is not finite: those that answered so, while none that they ask did; of those
     /// that asked about no surface; and of the layers that lack light.
     void name_bad_light(const Graph& graph);
-    /// Who took part.
+    /// Who took part. Once more when it has ended the run: then it has said how much memory that took.
     void use(const HostState& host);
-    /// Of a host that is in use: when it has ended the run, it has said how much memory that took.
-    void note_memory(const HostState& host);
+    /// Nodes go to other hosts now.
+    void moved(const Move& move);
 
     /// From now on the film is saved beside `exr` from time to time, in the background. `recipe` is what the picture
     /// depends on.

@@ -41,12 +41,16 @@ public:
         for (auto& [host, process] : hosts_) process = ++number;
     }
 
-    std::string write() {
+    std::string write(const std::vector<MoveReport>& moves) {
         text_ = metadata() + ",\"traceEvents\":[";
         for (const auto& [host, process] : hosts_)
             add(fmt::format(R"({{"ph":"M","name":"process_name","pid":{},"tid":0,"args":{{"name":{}}}}})", process,
                             json_text(name_of_host(host))));
         for (const auto& trace : traces_) write_place(trace);
+        for (const auto& move : moves)
+            for (const auto& who : move.nodes)
+                add(fmt::format(R"({{"ph":"i","name":{},"cat":"move","s":"g","pid":1,"tid":0,"ts":{:.3f}}})",
+                                json_text(who), double(static_cast<std::int64_t>(move.at_ns) - first_) / 1000));
         return text_ + "\n]}\n";
     }
 
@@ -125,8 +129,9 @@ private:
 
 }  // namespace
 
-std::string to_trace_json(const std::vector<PlaceTrace>& traces, const std::vector<std::string>& nodes) {
-    return TraceWriter(traces, nodes).write();
+std::string to_trace_json(const std::vector<PlaceTrace>& traces, const std::vector<std::string>& nodes,
+                          const std::vector<MoveReport>& moves) {
+    return TraceWriter(traces, nodes).write(moves);
 }
 
 }  // namespace lightnet

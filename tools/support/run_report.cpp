@@ -81,6 +81,10 @@ std::string to_json(const RunReport& report) {
     for (const auto& [node, what, seconds] : report.preparing)
         preparing.push_back({{"node", node}, {"what", what}, {"seconds", seconds}});
 
+    JsonTree moves = JsonTree::list();
+    for (const auto& move : report.moves)
+        moves.push_back({{"seconds", move.seconds}, {"gain", move.gain}, {"nodes", move.nodes}});
+
     JsonTree json;
     json["format"] = "lightnet run 2";
     json["outcome"] = report.outcome;
@@ -104,6 +108,7 @@ std::string to_json(const RunReport& report) {
     if (!report.hosts.empty()) json["hosts"] = hosts;
     json["phases"] = phases;
     if (!report.preparing.empty()) json["preparing"] = preparing;
+    if (!report.moves.empty()) json["moves"] = moves;
     json["counters"] = report.counters;
     json["settings"] = report.settings;
     json["versions"] = report.versions;

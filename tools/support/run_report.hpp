@@ -87,6 +87,14 @@ struct PrepareReport {
     double seconds = 0;
 };
 
+/// Nodes that went to other hosts in mid-run.
+struct MoveReport {
+    std::uint64_t at_ns = 0;         // by steady_nanoseconds() of the launcher
+    double seconds = 0;              // since the run began
+    double gain = 0;                 // predicted, of the time that was left: 0 to 1
+    std::vector<std::string> nodes;  // "caustic goes from a to b"
+};
+
 /// How far the picture that was written is from a reference.
 struct ErrorReport {
     std::string reference;  // file
@@ -111,6 +119,7 @@ struct RunReport {
     std::vector<HostReport> hosts;
     std::vector<PhaseReport> phases;
     std::vector<PrepareReport> preparing;
+    std::vector<MoveReport> moves;
     std::map<std::string, std::uint64_t> counters;  // questions, bundles, bytes, rays, tiles, lost, duplicates, …
     std::map<std::string, std::string> versions;    // of the program and the libraries
     std::map<std::string, std::string> settings;    // samples, size, seed, tone, …

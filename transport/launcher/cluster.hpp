@@ -58,6 +58,9 @@ public:
         Job job;
         std::map<std::string, Bytes> files;                       // the scene's, by path
         std::function<Plan(const std::vector<HostOffer>&)> plan;  // for the hosts that are there
+        std::function<bool()> moved = [] {
+            return false;
+        };  // does `plan` give another now, though nobody came or went?
         std::function<void(const std::string&)> say = [](const std::string&) {};
         std::function<void(const std::string&)> warn{};  // of what a user should look at; empty: as `say`
     };

@@ -221,7 +221,7 @@ void Cluster::Links::tell_changes() {
         if (before == State::ready && state == State::calling) tell_loss(*link);
         changed |= state == State::ready || was_there;
     }
-    if (!changed) return;
+    if (!options.moved() && !changed) return;
     tell_numbers();
     plan = plan_for(offers(true));
     Message message;

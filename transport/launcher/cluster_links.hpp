@@ -84,7 +84,7 @@ struct Cluster::Links {
     void take_joiners(Clock::time_point now);
     Relays::Handlers relay_handlers();
 
-    // Hosts that became ready or are no more: a new plan is proposed, and a line said for the user.
+    // Hosts that became ready or are no more, or nodes that move: a new plan is proposed, and a line said of hosts.
     void tell_changes();
     void tell_loss(const HostLink& link);
     // Of somebody who is not of the run, and may come as often as he likes.
