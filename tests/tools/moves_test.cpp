@@ -17,7 +17,7 @@ class TwoHostsThatShare : public ::testing::Test {
 protected:
     TwoHostsThatShare() {
         by.costs.nodes.resize(graph.nodes.size());
-        by.costs.image = renderer_of(graph, fake_registry());
+        by.costs.image = renderer_of(graph, kinds);
         const auto light = *graph.find("lighting");
         for (std::size_t node = 0; node < graph.nodes.size(); ++node)
             by.costs.nodes[node].name = graph.nodes[node].name;
@@ -32,13 +32,14 @@ protected:
         hosts.hosts = {{"a", {}, 2, {}}, {"b", {}, 2, {}}};
     }
 
+    Registry kinds = fake_registry();
     Graph graph = sound_graph("lighting = Ambient {}");
     LaidOut by;
     Hosts hosts;
 };
 
 TEST_F(TwoHostsThatShare, HaveAllTheirPlacesInAPlan) {
-    const Moves moves(by, {graph, fake_registry(), hosts});
+    const Moves moves(by, {graph, kinds, hosts});
     const auto plan = moves.plan({{"a", 2}, {"b", 2}});
     EXPECT_EQ(plan.places.size(), 4u);
     for (const auto node : by.costs.order)
@@ -47,7 +48,7 @@ TEST_F(TwoHostsThatShare, HaveAllTheirPlacesInAPlan) {
 }
 
 TEST_F(TwoHostsThatShare, TakeWhatAHostHadThatIsGone) {
-    const Moves moves(by, {graph, fake_registry(), hosts});
+    const Moves moves(by, {graph, kinds, hosts});
     const auto plan = moves.plan({{"b", 2}});
     EXPECT_EQ(plan.places.size(), 2u);
     for (const auto node : by.costs.order) EXPECT_FALSE(plan.places_of[node].empty());
@@ -55,10 +56,10 @@ TEST_F(TwoHostsThatShare, TakeWhatAHostHadThatIsGone) {
 
 // `a` becomes slow, and only the picture has room at `b`.
 TEST_F(TwoHostsThatShare, MoveWhatHasRoom) {
-    Moves moves(by, {graph, fake_registry(), hosts});
+    Moves moves(by, {graph, kinds, hosts});
     std::vector<HostState> states(2);
     states[0].name = "a", states[1].name = "b";
-    const auto edges = asking_edges(graph, layers_of(graph, fake_registry()), fake_registry());
+    const auto edges = asking_edges(graph, layers_of(graph, kinds), kinds);
     std::optional<Move> moved;
     for (int second = 1; second < 20 && !moved; ++second) {
         for (auto& state : states) {
