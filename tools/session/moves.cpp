@@ -35,7 +35,15 @@ Moves::Moves(const LaidOut& by, Of of)
 
 Plan Moves::plan(const std::vector<HostOffer>& there) const {
     const auto& by = mover_.by();
-    Plan made = lightnet::plan(of_.graph, of_.registry, named(by, of_.hosts), there);
+    auto hosts = named(by, of_.hosts);
+    const auto holds_something = [&](const HostEntry& entry) {
+        return std::any_of(there.begin(), there.end(), [&](const auto& o) { return o.endpoint == entry.host(); }) &&
+               std::any_of(entry.replicas.begin(), entry.replicas.end(), [](const auto& one) { return one.second; });
+    };
+    if (std::none_of(hosts.hosts.begin(), hosts.hosts.end(), holds_something))
+        for (auto& entry : hosts.hosts)
+            entry.replicas.clear();  // all who held anything are gone: the rest takes it all
+    Plan made = lightnet::plan(of_.graph, of_.registry, hosts, there);
     for (const auto& offer : there) {
         const auto host =
             std::find_if(by.hosts.begin(), by.hosts.end(), [&](const auto& one) { return one.name == offer.endpoint; });
