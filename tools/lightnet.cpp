@@ -17,6 +17,7 @@
 #include "tools/support/plugins.hpp"
 #include "tools/support/signals.hpp"
 #include "tools/support/standard_output.hpp"
+#include "tools/trials/trial_runs.hpp"
 #include "transport/places/descriptors.hpp"
 
 namespace {
@@ -32,6 +33,11 @@ int perform(const std::vector<std::string>& words) try {
     launcher.run_sequence = [&](lightnet::Sequence sequence) {
         return lightnet::run_sequence(std::move(sequence), registry);
     };
+    lightnet::TrialRuns trials(registry);
+    launcher.try_run = [&](const lightnet::RunRequest& request, double seconds) {
+        return trials.run(request, seconds);
+    };
+    launcher.run_tried = [&](const lightnet::RunRequest& request) { return trials.run_to_end(request); };
     launcher.run_session = [&](const lightnet::Session& session) { return lightnet::run_session(session, registry); };
     launcher.plug = [&](const std::vector<std::string>& files) {
         lightnet::load_plugins(files, registry);

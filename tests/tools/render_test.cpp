@@ -175,8 +175,11 @@ TEST(Render, KeepsTheCropOfTheScene) {
 TEST(Render, SaysWhatIsWrong) {
     Bench lightnet;
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--lighting", "pth"}), 2);
-    EXPECT_THAT(lightnet.err,
-                HasSubstr("must be path, direct, ao or a graph file (.lua), not 'pth' (did you mean 'path'?)"));
+    EXPECT_THAT(
+        lightnet.err,
+        HasSubstr(
+            "must be auto, path, path_all, irradiance_cache, progressive, guided, figure5, direct, ao or a graph file "
+            "(.lua), not 'pth' (did you mean 'path'?)"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "--env", "no.exr"}), 2);
     EXPECT_THAT(lightnet.err, HasSubstr("no.exr'"));
     EXPECT_EQ(lightnet({"render", lightnet.scene, "-D", "a=1"}), 2);

@@ -30,6 +30,11 @@ struct Launcher {
     Settings settings = {};  // of options that command lines leave open
     /// Renders a sequence; an exit code. None: a launcher of stills.
     std::function<int(Sequence)> run_sequence = {};
+    /// Renders, but for so many seconds at most, and keeps the scene for the next of these: trials of a run. An exit
+    /// code. None: a launcher without trials.
+    std::function<int(const RunRequest&, double seconds)> try_run = {};
+    /// Renders what was tried; an exit code. None: as `run`.
+    std::function<int(const RunRequest&)> run_tried = {};
     /// Renders a graph while it is edited; an exit code. None: a launcher without sessions.
     std::function<int(const Session&)> run_session = {};
 

@@ -9,14 +9,16 @@
 #include <utility>
 
 #include "core/base/frame_name.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/network/graph/value.hpp"
 #include "lua/load_graph.hpp"
+#include "tools/cli/lightings.hpp"
 
 namespace lightnet {
 namespace {
 
-constexpr double usual_samples = 64, usual_fps = 24;
+constexpr double usual_fps = 24;
 
 /// "0.5" or "1,0.9,0.8" as a table of three numbers; none: something else.
 std::optional<Table> colour_of(std::string_view text) {
@@ -52,47 +54,44 @@ void override_scene(Node& scene, const RenderedScene& wanted) {
     scene.params.try_emplace("time", Value{0.0});
 }
 
-/// `kinds`: what is added up.
-Graph own_graph(const RenderedScene& wanted, const std::vector<std::string>& kinds) {
+Graph own_graph(const RenderedScene& wanted, const Lighting& lighting) {
     const SourceLine where{wanted.file, 0};
     Graph graph;
     graph.file = wanted.file;
     const std::string file = std::filesystem::path(with_frame(wanted.file, wanted.frame.number)).filename().string();
     graph.nodes.push_back({"scene", "Scene", {{file}}, {}, where});
+    Node& scene = graph.nodes.back();
     if (wanted.frame.asked)
-        graph.nodes.back().params["time"] = {(wanted.frame.number - 1) / (wanted.fps > 0 ? wanted.fps : usual_fps)};
-    Node sum{"light", "Combine", {}, {}, where};
-    for (const auto& kind : kinds) {
-        const std::string name = kind == "DirectLighting" ? "direct" : kind == "PathTracing" ? "bounce" : "openness";
-        graph.nodes.push_back({name, kind, {}, {}, where});
-        sum.entries.push_back({NodeRef{name}});
+        scene.params["time"] = {(wanted.frame.number - 1) / (wanted.fps > 0 ? wanted.fps : usual_fps)};
+    if (!wanted.constants.empty()) {
+        Table constants;
+        for (const auto& [name, value] : wanted.constants) constants.named[name] = {value};
+        scene.params["constants"] = {std::move(constants)};
     }
-    graph.nodes.push_back(std::move(sum));
-    Node image{"image", "RayTracer", {{NodeRef{"light"}}}, {}, where};
+    for (auto& node : nodes_of(lighting, where)) graph.nodes.push_back(std::move(node));
+    Node image{"image", "RayTracer", {{NodeRef{graph.nodes.back().name}}}, {}, where};
     image.params["scene"] = {NodeRef{"scene"}};
-    image.params["samples"] = {usual_samples};
+    image.params["samples"] = {double(usual_samples)};
     image.params["film"] = {Table{{{512.0}, {512.0}}, {}}};  // overridden by the scene's
     graph.nodes.push_back(std::move(image));
     return graph;
+}
+
+UserError unknown_lighting(const std::string& name) {
+    const auto names = lighting_names();
+    return UserError({"--lighting", 0}, "must be " + joined(names) + " or a graph file (.lua), not '" + name + "'" +
+                                            did_you_mean(name, names));
 }
 
 }  // namespace
 
 // DECISIONS: render-is-a-graph
 RenderGraph render_graph(const RenderedScene& wanted) {
-    static const std::map<std::string, std::vector<std::string>> kinds{
-        {"ao", {"AmbientOcclusion"}}, {"direct", {"DirectLighting"}}, {"path", {"DirectLighting", "PathTracing"}}};
     RenderGraph result;
-    if (const auto kind = kinds.find(wanted.lighting); kind != kinds.end()) {
-        result.graph = own_graph(wanted, kind->second);
-        if (!wanted.constants.empty()) {
-            Table constants;
-            for (const auto& [name, value] : wanted.constants) constants.named[name] = {value};
-            result.graph.nodes.front().params["constants"] = {std::move(constants)};
-        }
+    if (const Lighting* lighting = find_lighting(wanted.lighting)) {
+        result.graph = own_graph(wanted, *lighting);
     } else if (!wanted.lighting.ends_with(".lua")) {
-        throw UserError({"--lighting", 0}, "must be path, direct, ao or a graph file (.lua), not '" + wanted.lighting +
-                                               "'" + did_you_mean(wanted.lighting, {"path", "direct", "ao"}));
+        throw unknown_lighting(wanted.lighting);
     } else {
         auto constants = wanted.constants;
         if (wanted.fps > 0) constants["fps"] = number_text(wanted.fps);

@@ -14,6 +14,9 @@
 
 namespace lightnet {
 
+/// Per pixel, where nobody says how many.
+inline constexpr std::uint32_t usual_samples = 64;
+
 /// A graph that has not been checked, and what was wrong on the way to it.
 struct RenderGraph {
     Graph graph;
@@ -23,7 +26,7 @@ struct RenderGraph {
 /// A scene file, and what is asked of it.
 struct RenderedScene {
     std::string file;
-    std::string lighting = "path";                 // path, direct, ao or a graph file
+    std::string lighting = "path";                 // a name (lightings.hpp) or a graph file
     std::string environment;                       // a picture's file or a colour; "": as the scene says
     bool two_sided = false;                        // no surface is black from behind
     std::map<std::string, std::string> constants;  // -D: of the scene file, or of the graph file

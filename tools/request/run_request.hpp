@@ -83,8 +83,15 @@ struct RunSettings {
     std::string reference, curve;        // a picture to be compared with, and a file for the errors; "": none
 };
 
+/// How the scene of a run is lit, where that has a name. A value.
+struct LightingOfRun {
+    std::string name;    // "": it has none
+    std::string trials;  // figures of the trials by which it was chosen; "": somebody has named it
+};
+
 /// A run, ready to go.
 struct RunRequest : RunSettings {
+    LightingOfRun lighting;
     Graph graph;  // checked; --samples and --size are in it, and the sectors of sharded nodes
     Hosts hosts;  // to be called, or that join by name; and places of this process
     std::shared_ptr<const LaidOut> laid_out;  // by what `hosts` hold what they do; null: somebody has said so

@@ -94,6 +94,10 @@ RunReport first_page(const RunRequest& request, const Registry& registry, const 
         auto& text = report.settings["gains"];
         for (const auto& gain : gains) text += (text.empty() ? "" : " ") + to_string(gain);
     }
+    if (const auto& [name, trials] = request.lighting; !name.empty()) {
+        report.settings["lighting"] = name;
+        if (!trials.empty()) report.settings["lighting_trials"] = trials;
+    }
     report.settings["seed"] = std::to_string(request.seed);
     for (const auto& knob : knobs)
         if (knob.by == Knob::By::users) report.settings[knob.name] = text_of(request.tuning, knob);

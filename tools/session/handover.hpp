@@ -42,6 +42,8 @@ public:
 
     /// True for what nobody has said yet.
     bool is_new(const std::string& warning) { return said_.insert(warning).second; }
+    /// So far nobody has heard anything.
+    void say_again() { said_.clear(); }
     /// Where its runs are watched, one after the other; null: each has a page of its own, if any.
     WatchServer* server = nullptr;
     /// What became of the last run: its picture was there already.

@@ -39,6 +39,13 @@ std::optional<Progress::Series> series_of(const RunRequest& request) {
     return Progress::Series{number, index, count, begun};
 }
 
+// Once, of a sequence with its first frame. "": somebody has named it.
+std::string words_of_lighting(const RunRequest& request) {
+    const auto& [name, trials] = request.lighting;
+    if (trials.empty() || (request.frame && request.frame->index > 0)) return {};
+    return "lighting by " + name + ", by trials: " + trials + "; --lighting " + name + " gives the same picture";
+}
+
 // A scene as those see it who write of it.
 const SceneData& data_of(const LoadedScene& scene) { return scene.built ? scene.built->data() : scene.data; }
 
@@ -90,7 +97,9 @@ void Run::take_up_checkpoint(const LoadedScene& scene) {
     if (watcher_ && request_.shown)
         watcher_->look_from(
             viewpoint_of(camera, scene.built ? scene.built->bounds() : statistics_of(scene.data).bounds));
-    book_.describe(words_of(request_.graph, registry_, format_, recipe, data_of(scene), camera));
+    auto words = words_of(request_.graph, registry_, format_, recipe, data_of(scene), camera);
+    if (const auto& name = request_.lighting.name; !name.empty()) words.notes.texts["lighting"] = name;
+    book_.describe(std::move(words));
     book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint));
     if (request_.resume) book_.take_up_checkpoint();
 }
@@ -145,6 +154,7 @@ bool Run::was_there(LoadedScene& scene) {
 }
 
 int Run::render() {
+    if (const auto words = words_of_lighting(request_); !words.empty()) book_.say(words);
     LoadedScene scene = load();
     if (was_there(scene)) return exit_code::done;
     const KeptFiles to_keep(request_.graph, registry_, data_of(scene));
@@ -251,7 +261,8 @@ int Run::perform() {
 // A report that can't be written takes nothing from the picture, but whoever asked for it has to know: false.
 bool Run::show_outcome(const std::string& outcome) {
     if (!watcher_) return true;
-    const bool foreseen = outcome == "done" && !handover_ && watcher_->wanted();
+    const bool alone = !request_.frame && !(handover_ && handover_->server);
+    const bool foreseen = outcome == "done" && alone && watcher_->wanted();
     book_.show_outcome(outcome, foreseen ? curve_of_run(report_beside(request_.output), registry_) : ForecastCurve{});
     if (request_.report.empty()) return true;
     const auto complain = [&](const std::string& why) {

@@ -1,0 +1,46 @@
+// The choice among ways to light a scene, from figures alone: no clock, no picture, no machine.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lightnet {
+
+/// What a trial of one way has shown: a small picture with few samples. Errors are relative squares, the mean of d² /
+/// (light² + 0.01). A value.
+struct LightingTrial {
+    std::string name;
+    std::string failed{};                 // why there are no figures; "": there are
+    double pixels = 0, samples = 0;       // of the trial; samples per pixel
+    double preparing = 0, rendering = 0;  // processor seconds
+    double preparing_grows = 1;           // of the picture that is asked for: so many times as long
+    double own_error = 0;                 // that neighbours don't share: falls as 1 / samples
+    double shared_error = 0;              // noise of records and photons, and bias: stays
+    double falls = 1;                     // of the picture that is asked for: so many times as much, beside samples
+    /// Photons of each sample: all of it falls as samples^-2/3 (Knaus & Zwicker 2011, with alpha 2/3).
+    bool progressive = false;
+};
+
+/// A picture that is asked for.
+struct AskedPicture {
+    double pixels = 0, samples = 0;  // samples per pixel
+};
+
+/// What it is expected to take, and how far it will be off.
+struct LightingForecast {
+    double seconds = 0, error = 0;  // of processors; relative square
+    double cost() const { return seconds * error; }
+};
+LightingForecast forecast_of(const LightingTrial& trial, const AskedPicture& asked);
+
+/// The trial whose picture will have the least error × time. The first one stays where no other is better by a tenth:
+/// figures of trials are not more exact, and it has no bias. What failed is not chosen, unless all have: then it is the
+/// first.
+std::size_t best_lighting(const std::vector<LightingTrial>& trials, const AskedPicture& asked);
+
+/// "progressive (error × time 0.12: 8.2 s × 0.0146), path_all (…)": the chosen one first, then the others in their
+/// order. The same figures give the same text.
+std::string words_of_choice(const std::vector<LightingTrial>& trials, const AskedPicture& asked, std::size_t chosen);
+
+}  // namespace lightnet

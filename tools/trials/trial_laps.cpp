@@ -1,0 +1,169 @@
+#include "tools/trials/trial_laps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "core/base/json.hpp"
+#include "core/base/plain_file.hpp"
+#include "core/base/temporary_folder.hpp"
+#include "core/film/exr.hpp"
+#include "tools/support/exit_code.hpp"
+#include "tools/support/run_report.hpp"
+#include "tools/support/signals.hpp"
+#include "tools/trials/trial_errors.hpp"
+
+namespace lightnet {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uint64_t longest_report = std::uint64_t{64} << 20;
+constexpr double for_ever = 1e9;
+
+/// What phases of a run took, by its report: seconds on the clock.
+struct Phases {
+    double all = 0, preparing = 0, rendering = 0;
+};
+
+// The part of preparing that goes into records along what is seen, by the seconds of its shards.
+double part_of_records(const Json& report) {
+    double records = 0, all = 0;
+    for (const auto& node : report.at("nodes").list()) {
+        if (!node.has("preparing")) continue;
+        const double seconds = node.at("preparing").at("seconds").number();
+        all += seconds;
+        if (node.at("kind").text() == "IrradianceCache") records += seconds;
+    }
+    return all > 0 ? records / all : 0;
+}
+
+Phases phases_of(const Json& report) {
+    Phases phases;
+    for (const auto& phase : report.at("phases").list()) {
+        const double seconds = phase.at("seconds").number();
+        phases.all += seconds;
+        if (phase.at("name").text() == "prepare") phases.preparing += seconds;
+        if (phase.at("name").text() == "render") phases.rendering += seconds;
+    }
+    return phases;
+}
+
+class Laps {
+public:
+    explicit Laps(const TrialCourse& course) : course_(course) {}
+
+    /// Adds what it took; preparing is that of the last lap. None: its time was over.
+    std::optional<Picture> run(const TrialRequest& trial, std::uint64_t lap, LightingTrial& figures, double most) {
+        RunRequest request = trial.request;
+        const auto file = fs::path(folder_.path()) / "trial.exr";
+        request.output = file.string();
+        if (lap > 0) request.read.reset();  // the first has taken it away
+        request.seed += 1 + lap;            // none of the picture that is asked for
+        const double before = course_.processor_seconds();
+        const int code = course_.run(request, most);
+        const double used = course_.processor_seconds() - before;
+        if (code != exit_code::done) used_ += used;
+        if (code == exit_code::interrupted) {
+            if (watch_signals().any) throw TrialInterrupted{};
+            return std::nullopt;
+        }
+        if (code != exit_code::done) throw Error(trial.name, "its trial ended with code " + std::to_string(code));
+        const Json report = parse_json(PlainFile(report_beside(file), longest_report).text(), {.depth = 64});
+        const auto [all, preparing, rendering] = phases_of(report);
+        const double processors = used / std::max(1e-9, all);
+        const double prepared = preparing * processors, rendered = rendering * processors;
+        // The first of all laps loads the scene and builds it for all.
+        used_ += used_ > 0 ? used : rendered;
+        figures.preparing = prepared, figures.rendering += rendered;
+        figures.preparing_grows = 1 + (trial.known.preparing_grows - 1) * (trial.records ? part_of_records(report) : 1);
+        Picture picture = read_exr(file);
+        figures.pixels = double(picture.beauty.size());
+        return picture;
+    }
+    /// Seconds of all so far.
+    double used() const { return used_; }
+
+private:
+    const TrialCourse& course_;
+    TemporaryFolder folder_{"trials"};
+    double used_ = 0;
+};
+
+// DECISIONS: lighting-by-trials
+class TrialSeries {
+public:
+    TrialSeries(const std::vector<TrialRequest>& requests, const TrialCourse& course)
+        : requests_(requests), course_(course), laps_(course) {}
+
+    std::vector<LightingTrial> run() {
+        run_first();
+        for (std::size_t i = 1; i < requests_.size(); ++i) {
+            LightingTrial figures = beginning(requests_[i]);
+            try {
+                run_other(requests_[i], figures);
+            } catch (const std::runtime_error& error) {  // Error and UserError
+                figures.failed = error.what();
+            }
+            trials_.push_back(std::move(figures));
+        }
+        return trials_;
+    }
+
+private:
+    static LightingTrial beginning(const TrialRequest& request) {
+        LightingTrial figures = request.known;
+        figures.name = request.name;
+        return figures;
+    }
+
+    void run_first() {
+        LightingTrial figures = beginning(requests_.front());
+        for (std::uint64_t lap = 0; lap < pair_.size(); ++lap)
+            pair_[lap] = laps_.run(requests_.front(), lap, figures, for_ever).value();
+        figures.rendering /= 2;
+        figures.own_error = errors_of(pair_, {}).front().own;
+        figures.failed = requests_.front().excluded;
+        trials_.push_back(std::move(figures));
+    }
+
+    void run_other(const TrialRequest& request, LightingTrial& figures) {
+        figures.failed = request.excluded;
+        if (!figures.failed.empty()) return;
+        const auto best = forecast_of(trials_[best_lighting(trials_, course_.asked)], course_.asked);
+        // What takes too long leaves as much to the others.
+        const double most = (course_.most_part * best.seconds - laps_.used()) / 2;
+        if (most < course_.least_seconds) {
+            figures.failed = "not tried, as trials have taken their part of the time";
+            return;
+        }
+        // With a seed of the first's, guided paths that are not guided would be the very same.
+        const auto picture = laps_.run(request, pair_.size(), figures, most);
+        if (!picture) {
+            figures.failed = fmt::format("its trial takes more than {:.2g} s", most);
+            return;
+        }
+        const auto [own, shared] = errors_of(pair_, {*picture}).back();
+        if (request.is_biased)
+            figures.own_error = own, figures.shared_error = shared;
+        else
+            figures.own_error = own + shared;
+    }
+
+    const std::vector<TrialRequest>& requests_;
+    const TrialCourse& course_;
+    Laps laps_;
+    PicturePair pair_;
+    std::vector<LightingTrial> trials_;
+};
+
+}  // namespace
+
+std::vector<LightingTrial> run_trials(const std::vector<TrialRequest>& requests, const TrialCourse& course) {
+    return TrialSeries(requests, course).run();
+}
+
+}  // namespace lightnet
