@@ -43,4 +43,16 @@ inline Picture noisy_picture(std::uint32_t width, std::uint32_t height) {
     return picture;
 }
 
+/// With all that goes into files.
+inline Picture for_compositing() {
+    Picture picture = noisy_picture(5, 3);
+    picture.alpha = std::vector<float>(15, 0.25f);
+    picture.shown = {{"depth", noise(15, 4)}};
+    picture.mattes = {{"CryptoObject", 4, {}, R"({"ball":"deadbeef"})"}};
+    for (std::size_t i = 0; i < 15 * 4; ++i) picture.mattes[0].pixels.push_back({float(i) + 1, 1 / float(i + 2)});
+    picture.notes.texts = {{"software", "lightnet"}, {"seed", "7"}};
+    for (std::size_t i = 0; i < 16; ++i) picture.notes.matrices["worldToCamera"][i] = float(i);
+    return picture;
+}
+
 }  // namespace lightnet

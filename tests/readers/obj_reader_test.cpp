@@ -110,6 +110,9 @@ TEST(Obj, MayNameVerticesThatComeLater) {
     EXPECT_EQ(shape("red").uvs[1], (Vec2{1, 0}));
     EXPECT_EQ(shape("blue").positions, (std::vector<Vec3>{{0, 0, 1}, {0, 1, 0}, {9, 9, 9}})) << "-1 was the first";
     EXPECT_EQ(shape("green").triangles.size(), 1u);
+    const auto later = read_as("a.obj", corners + "f 1//1 2//1 3//1\nf 1//2 2//1 3//1\nvn 0 0 -1\n");
+    EXPECT_EQ(normal_of(mesh_of(later)), (Vec3{0, 0, -1}));
+    EXPECT_THAT(warnings_of(later), HasSubstr("a.obj:6: faces name normals that are not there"));
     EXPECT_THAT(errors_as("a.obj", "f 1 2 9\n" + corners), HasSubstr("a.obj:1: index 9 is out of range: there are"));
 }
 

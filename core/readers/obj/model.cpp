@@ -35,6 +35,83 @@ struct Mix {
     }
 };
 
+/// How many there are of each: indices below 0 count from there.
+struct Counts {
+    std::size_t positions = 0, uvs = 0, normals = 0;
+};
+
+/// Reads corners of faces: "v", "v/vt", "v//vn" or "v/vt/vn".
+class CornerReader {
+public:
+    /// `so_far`: where the face stands; `all`: what can be named. `last`: nothing comes later.
+    CornerReader(const Counts& so_far, const Counts& all, bool last, const Lines& lines, Report& report)
+        : so_far_(so_far), all_(all), last_(last), lines_(lines), report_(report) {}
+
+    /// None: it names what comes later, or it was reported.
+    std::optional<Corner> read(std::string_view text) {
+        const auto part = [&] {
+            const auto end = std::min(text.find('/'), text.size());
+            const auto digits = text.substr(0, end);
+            text.remove_prefix(std::min(end + 1, text.size()));
+            return digits;
+        };
+        Corner corner;
+        const auto position = vertex(part());
+        if (!position) return std::nullopt;
+        corner.position = *position;
+        if (const auto digits = part(); !digits.empty())
+            corner.uv = index_or_none(digits, so_far_.uvs, all_.uvs, "texture coordinates");
+        if (const auto digits = part(); !digits.empty())
+            corner.normal = index_or_none(digits, so_far_.normals, all_.normals, "normals");
+        return names_later_ ? std::nullopt : std::optional(corner);
+    }
+    /// Some corner has named what comes later.
+    bool names_later() const { return names_later_; }
+
+private:
+    /// None: reported.
+    std::optional<std::int64_t> whole(std::string_view digits) {
+        std::int64_t value = 0;
+        const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        if (problem == std::errc{} && end == digits.data() + digits.size()) return value;
+        report_.error(lines_.where(), fmt::format("an index expected, not '{}'", digits.substr(0, 32)));
+        return std::nullopt;
+    }
+
+    /// Of "7", or of "-1" from the `count`-th on. None: there is no such one among `all`, yet or at all.
+    std::optional<std::uint32_t> place(std::int64_t value, std::size_t count, std::size_t all) {
+        const auto before = static_cast<std::int64_t>(count), size = static_cast<std::int64_t>(all);
+        names_later_ = names_later_ || (value > size && !last_);
+        if (value == 0 || value > size || value < -before) return std::nullopt;
+        return static_cast<std::uint32_t>(value > 0 ? value - 1 : before + value);
+    }
+
+    /// None: it comes later, or it was reported.
+    std::optional<std::uint32_t> vertex(std::string_view digits) {
+        const auto value = whole(digits);
+        const auto found = value ? place(*value, so_far_.positions, all_.positions) : std::nullopt;
+        if (value && !found && !names_later_)
+            report_.error(lines_.where(),
+                          fmt::format("index {} is out of range: there are {} vertices", *value, all_.positions));
+        return found;
+    }
+
+    /// A face is there without them, too.
+    std::uint32_t index_or_none(std::string_view digits, std::size_t count, std::size_t all, const char* of) {
+        const auto value = whole(digits);
+        const auto found = value ? place(*value, count, all) : std::nullopt;
+        if (value && !found && !names_later_)
+            report_.warn(lines_.where(), fmt::format("faces name {} that are not there, and go without", of));
+        return found.value_or(none);
+    }
+
+    const Counts so_far_, all_;
+    const bool last_;
+    const Lines& lines_;  // of which one has the face
+    Report& report_;
+    bool names_later_ = false;
+};
+
 class ModelReader {
 public:
     ModelReader(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report)
@@ -59,10 +136,6 @@ private:
         Part part;
         std::unordered_map<Corner, std::uint32_t, Mix> vertices;
         bool normals = false, uvs = false;
-    };
-    /// How many there are of each: indices below 0 count from there.
-    struct Counts {
-        std::size_t positions = 0, uvs = 0, normals = 0;
     };
     /// A face of vertices that come later, and what held where it stands.
     struct Waiting {
@@ -133,72 +206,20 @@ private:
         open_ = nullptr;
     }
 
-    /// None: reported.
-    std::optional<std::int64_t> whole(std::string_view digits) {
-        std::int64_t value = 0;
-        const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        if (problem == std::errc{} && end == digits.data() + digits.size()) return value;
-        report_.error(lines_.where(), fmt::format("an index expected, not '{}'", digits.substr(0, 32)));
-        return std::nullopt;
-    }
+    Counts counts() const { return {positions_.size(), uvs_.size(), normals_.size()}; }
 
-    Counts counts() const { return then_.value_or(Counts{positions_.size(), uvs_.size(), normals_.size()}); }
+    void face() { face(counts(), false); }
 
-    /// Of "7", or of "-1" from the `count`-th on. None: there is no such one among `all`.
-    static std::optional<std::uint32_t> place(std::int64_t value, std::size_t count, std::size_t all) {
-        const auto before = static_cast<std::int64_t>(count), size = static_cast<std::int64_t>(all);
-        if (value == 0 || value > size || value < -before) return std::nullopt;
-        return static_cast<std::uint32_t>(value > 0 ? value - 1 : before + value);
-    }
-
-    /// None: reported.
-    std::optional<std::uint32_t> vertex_index(std::string_view digits) {
-        const auto value = whole(digits);
-        const auto found = value ? place(*value, counts().positions, positions_.size()) : std::nullopt;
-        comes_later_ = value && !found && *value > 0 && !then_;
-        if (value && !found && !comes_later_)
-            report_.error(lines_.where(),
-                          fmt::format("index {} is out of range: there are {} vertices", *value, counts().positions));
-        return found;
-    }
-
-    /// A face is there without them, too.
-    std::uint32_t index_or_none(std::string_view digits, std::size_t count, std::size_t all, const char* of) {
-        const auto value = whole(digits);
-        const auto found = value ? place(*value, count, all) : std::nullopt;
-        if (value && !found)
-            report_.warn(lines_.where(), fmt::format("faces name {} that are not there, and go without", of));
-        return found.value_or(none);
-    }
-
-    /// "v", "v/vt", "v//vn" or "v/vt/vn".
-    std::optional<Corner> corner(std::string_view text) {
-        const auto part = [&] {
-            const auto end = std::min(text.find('/'), text.size());
-            const auto digits = text.substr(0, end);
-            text.remove_prefix(std::min(end + 1, text.size()));
-            return digits;
-        };
-        Corner corner;
-        const auto position = vertex_index(part());
-        if (!position) return std::nullopt;
-        corner.position = *position;
-        if (const auto digits = part(); !digits.empty())
-            corner.uv = index_or_none(digits, counts().uvs, uvs_.size(), "texture coordinates");
-        if (const auto digits = part(); !digits.empty())
-            corner.normal = index_or_none(digits, counts().normals, normals_.size(), "normals");
-        return corner;
-    }
-
-    void face() {
+    /// `so_far`: where it stands; `last`: nothing comes later.
+    void face(const Counts& so_far, bool last) {
         const auto words = lines_.left();
         corners_.clear();
-        comes_later_ = false;
+        CornerReader reader(so_far, counts(), last, lines_, report_);
         Open& open = this->open();
         for (auto word = lines_.word(); !word.empty() && word.front() != '#'; word = lines_.word()) {
-            const auto read = corner(word);
-            if (comes_later_)
-                return waiting_.push_back({std::string(words), lines_.where(), object_, material_, smooth_, counts()});
+            const auto read = reader.read(word);
+            if (reader.names_later())
+                return waiting_.push_back({std::string(words), lines_.where(), object_, material_, smooth_, so_far});
             if (!read) return;
             corners_.push_back(vertex_of(open, *read));
         }
@@ -217,8 +238,7 @@ private:
             lines_.begin(face.words, face.where.line);
             object_ = std::move(face.object), material_ = std::move(face.material), smooth_ = face.smooth;
             open_ = nullptr;
-            then_ = face.counts;
-            this->face();
+            this->face(face.counts, true);
         }
     }
 
@@ -265,9 +285,7 @@ private:
     std::map<Key, std::size_t> index_;
     Open* open_ = nullptr;  // one of parts_; null: to be looked up
     std::vector<std::uint32_t> corners_;
-    bool comes_later_ = false;  // the vertex that a face has named last
     std::vector<Waiting> waiting_;
-    std::optional<Counts> then_;  // where a waiting face stands; none: none is read
 };
 
 }  // namespace
