@@ -73,7 +73,7 @@ TEST_F(ViewVerb, ShowsANetworkAndExplainsPixels) {
     EXPECT_GT(hello["edges"].size(), 2u);
     viewing.explain(3, 4);
     const auto explained = viewing.hears("explained");
-    EXPECT_THAT(explained["text"].get<std::string>(), HasSubstr("sample ")) << explained;
+    EXPECT_THAT(explained["text"].get<std::string>(), HasSubstr("x.exr, pixel 3,4")) << explained;
     EXPECT_EQ(viewing.end(), 0) << viewing.said();
 }
 

@@ -79,14 +79,17 @@ PictureFile picture_file(const std::string& file) try { return {file, read_exr(f
 /// What is known of how a picture came about, and who tells of its pixels. None: nothing is.
 class Origin {
 public:
-    /// `said`: a report was named. What it says of another picture is an error then, else it is told and left out.
-    Origin(const std::string& report, bool said, const ViewedPicture& viewed, const Launcher& launcher) {
+    /// Where a report was named and says something of another picture, that is an error; else it is told and left out.
+    Origin(const ViewOptions& options, const ViewedPicture& viewed, const Launcher& launcher) {
+        const bool said = !options.report.empty();
+        const auto report = said ? options.report : report_beside(options.picture).string();
         if (!said && !std::filesystem::exists(report)) return;
         try {
             const PastRun past = read_past_run(report, launcher.registry);
             request_.graph = past.graph;
             request_.scene = scene_file(past.graph, launcher.registry);
             request_.seed = past.seed;
+            request_.output = options.picture;
             FilmFormat format = film_format(request_, launcher.registry);
             if (format.layers != viewed.format().layers || format.width != viewed.format().width ||
                 format.height != viewed.format().height)
@@ -116,8 +119,7 @@ int view(const ViewOptions& options, const Launcher& launcher) {
     std::optional<PictureFile> other;
     if (!options.other.empty()) other = picture_file(options.other);
     ViewedPicture viewed(picture_file(options.picture), std::move(other));
-    const auto report = options.report.empty() ? report_beside(options.picture).string() : options.report;
-    const Origin origin(report, !options.report.empty(), viewed, launcher);
+    const Origin origin(options, viewed, launcher);
     const auto& stop = watch_signals();
 
     WatchedState state;
