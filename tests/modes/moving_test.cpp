@@ -89,14 +89,6 @@ private:
     std::shared_ptr<const Kept> what_;
 };
 
-Registry with_keeper() {
-    Kind keeper{.name = "Keeper", .help = "for tests", .inputs = {1, 1}, .run = {.prepares = true}};
-    keeper.make_light = [](const NodeContext& here) { return std::make_unique<Keeper>(here); };
-    auto kinds = standard_nodes();
-    kinds.push_back(keeper);
-    return Registry(std::move(kinds));
-}
-
 struct MovingNetwork : Learning {
     explicit MovingNetwork(std::vector<Node> nodes) : Learning(with_learner(), std::move(nodes)) {
         tiles = tiles_of(width, height, 2, samples);
@@ -129,6 +121,14 @@ void expect_the_same(const MovingNetwork& learning, const std::vector<Pixels>& e
 }
 
 #ifndef LIGHTNET_LARGE
+
+Registry with_keeper() {
+    Kind keeper{.name = "Keeper", .help = "for tests", .inputs = {1, 1}, .run = {.prepares = true}};
+    keeper.make_light = [](const NodeContext& here) { return std::make_unique<Keeper>(here); };
+    auto kinds = standard_nodes();
+    kinds.push_back(keeper);
+    return Registry(std::move(kinds));
+}
 
 // The first of two hosts gives its memory back when the second has what it had; and the other way round.
 TEST(Moving, LetsGoOfWhatHasLeft) {
