@@ -65,7 +65,7 @@ public:
             corner.normal = index_or_none(digits, so_far_.normals, all_.normals, "normals");
         return names_later_ ? std::nullopt : std::optional(corner);
     }
-    /// Some corner has named what comes later.
+    /// Some corner has named what isn't there, yet or at all.
     bool names_later() const { return names_later_; }
 
 private:
@@ -81,8 +81,9 @@ private:
     /// Of "7", or of "-1" from the `count`-th on. None: there is no such one among `all`, yet or at all.
     std::optional<std::uint32_t> place(std::int64_t value, std::size_t count, std::size_t all) {
         const auto before = static_cast<std::int64_t>(count), size = static_cast<std::int64_t>(all);
-        names_later_ = names_later_ || (value > size && !last_);
-        if (value == 0 || value > size || value < -before) return std::nullopt;
+        const bool there = value != 0 && value <= size && value >= -before;
+        names_later_ = names_later_ || (!there && !last_);
+        if (!there) return std::nullopt;
         return static_cast<std::uint32_t>(value > 0 ? value - 1 : before + value);
     }
 
