@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cstring>
 #include <list>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -212,7 +213,9 @@ std::list<Channels> parts_of(const Picture& picture) {
     if (!picture.samples.empty()) first.add(samples_channel, picture.samples.data(), sizeof(float));
     for (const auto& layer : picture.layers) next(layer.name).add(layer, {});
     for (const auto& layer : picture.shown) next(layer.name).add(layer, picture.storage);
-    for (const auto& matte : picture.mattes) next(matte.name).add(matte);
+    std::map<std::string, const PictureMatte*> mattes;  // by name, as files don't tell their order
+    for (const auto& matte : picture.mattes) mattes.emplace(matte.name, &matte);
+    for (const auto& [name, matte] : mattes) next(name).add(*matte);
     return parts;
 }
 
