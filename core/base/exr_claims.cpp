@@ -99,7 +99,8 @@ private:
         const std::int64_t height = std::int64_t{window_[3]} - window_[1] + 1;
         if (width <= 0 || height <= 0) return;
         const double pixels = double(width) * double(height), bytes = double(size_);
-        claimed_ += blocks_ ? pixels / pixels_per_byte_in_blocks : pixels * std::max(pixel_bytes_, 1.0) / bytes_per_byte;
+        claimed_ +=
+            blocks_ ? pixels / pixels_per_byte_in_blocks : pixels * std::max(pixel_bytes_, 1.0) / bytes_per_byte;
         if (claimed_ > bytes)
             throw Error("EXR: " + std::to_string(size_) + " bytes can't be " + std::to_string(width) + " x " +
                         std::to_string(height) + " pixels");
