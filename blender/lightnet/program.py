@@ -25,6 +25,7 @@ class Run:
     def __init__(self, command, folder):
         self.share, self.phase, self.left, self.said = 0.0, "starts", None, []
         self._lines = queue.SimpleQueue()
+        self._told = False  # to end
         self._process = subprocess.Popen(
             command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
             text=True, errors="replace", start_new_session=True,
@@ -69,8 +70,9 @@ class Run:
             self.share = event["done"] / event["total"] if event.get("total") else self.share
 
     def cancel(self):
-        """Tells it to end early, with the picture that there is."""
-        if self._process.poll() is None:
+        """Tells it to end early, with the picture that there is. A second signal would end it without its last words."""
+        if self._process.poll() is None and not self._told:
+            self._told = True
             self._process.send_signal(signal.SIGTERM)
 
     def code(self):

@@ -19,13 +19,14 @@ class Run:
 
     def __init__(self, image, every=1.0, **options):
         self.image, self.every, self.options = image, every, options
-        self.events, self.said, self._cancelled = [], [], False
+        self.events, self.said, self._cancelled, self._told = [], [], False, False
         self._process = None
 
     def cancel(self):
-        """Ends the run early; the loop then gets the picture that there is. May be called from any thread."""
+        """Ends the run early; the loop then gets the picture that there is. May be called from any thread, and again."""
         self._cancelled = True
-        if self._process:
+        if self._process and not self._told:  # a second signal would end it without its last words
+            self._told = True
             self._process.send_signal(signal.SIGTERM)
 
     def __iter__(self):

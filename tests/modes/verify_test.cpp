@@ -72,9 +72,11 @@ protected:
 
 TEST_F(Verify, OfHonestHostsChangesNoByteAndTakesNobodyOut) {
     const Daemon one(folder), two(folder), three(folder);
-    // Of a tenth of few tiles there may be none: they are handed out together where they are quick.
+    // Of a tenth of few tiles there may be none, but not in all layouts: they are handed out together where they are
+    // quick.
     const std::pair<const char*, Words> parts[]{{"100%", small}, {"0.1", larger}};
     const std::string honest[]{alone(cornell, small), alone(cornell, larger)};
+    double verified[]{0, 0};
     for (const auto& hosts :
          {whole(one.endpoint) + whole(two.endpoint),
           holds(one.endpoint, "image = 1, lighting = 1") + holds(two.endpoint, "direct = 1, bounce = 1") +
@@ -86,9 +88,10 @@ TEST_F(Verify, OfHonestHostsChangesNoByteAndTakesNobodyOut) {
             const auto end = on(cornell, picture, hosts, {"--verify", part});
             EXPECT_EQ(end.code, 0) << end.said;
             EXPECT_TRUE(end.picture == honest[i]) << hosts << end.said;
-            EXPECT_GT(counter(end.report, "verified"), 0) << hosts;
+            verified[i] += counter(end.report, "verified");
             EXPECT_THAT(end.said, Not(HasSubstr("falsely")));
         }
+    for (const double count : verified) EXPECT_GT(count, 0);
 }
 
 TEST_F(Verify, OfNodesThatPrepareChangesNoByte) {
