@@ -23,7 +23,7 @@ sed -n 's/^    \(lightnet .*\)/\1/p' "$sources/README.md" >commands
 while read -r line; do
     command -v dot >/dev/null || line=${line/| dot -Tsvg/}
     # A page is served until somebody ends it.
-    case $line in 'lightnet view'*) line="timeout --preserve-status --signal TERM 3 $line" ;; esac
+    case $line in 'lightnet view'*) line="timeout --foreground --preserve-status --signal TERM 3 $line" ;; esac
     code=0
     bash -c "$line" </dev/null >said 2>&1 || code=$?
     # Without a Slurm it can't be done, but it is understood.
