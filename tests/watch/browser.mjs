@@ -228,6 +228,8 @@ try {
     await pause(1000);
     assert(await small.evaluate(() => document.documentElement.scrollWidth) <= 600, "nothing sticks out of the view");
     await shot(small, "view-dark-600");
+    await small.close();
+    await viewed.close();
     view.child.kill("SIGINT");
     assert.equal(await view.ended, 0, view.said);
 
