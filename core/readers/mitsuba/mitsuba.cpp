@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/readers/common/clipping.hpp"
+#include "core/readers/common/moment.hpp"
 #include "core/readers/mitsuba/emitters.hpp"
 #include "core/readers/mitsuba/sensors.hpp"
 #include "core/readers/mitsuba/shapes.hpp"
@@ -106,18 +106,9 @@ private:
     std::string first_unknown_;
 };
 
-/// Takes the moment that is wanted out of what fills in the file's variables.
-std::optional<double> take_time(SceneConstants& constants, const std::string& path) {
-    if (constants.contains(std::string(animation_constant)))
-        throw UserError({path, 0}, "Mitsuba's animations have no names, so no 'animation' can be chosen");
-    const auto time = constants.extract(std::string(time_constant));
-    if (!time) return std::nullopt;
-    return std::strtod(time.mapped().c_str(), nullptr);  // a number, as a graph has it
-}
-
 SceneData read(Files& files, const std::string& path, const SceneConstants& given) {
     SceneConstants constants = given;
-    const auto seconds = take_time(constants, path);
+    const auto seconds = take_moment(constants, path, "Mitsuba's animations have");
     return read_by_assets(files, path, [&](Assets& assets) {
         Report& report = assets.report();
         SceneData& scene = assets.scene();

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/readers/common/moment.hpp"
 #include "core/readers/files/gzip.hpp"
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/syntax.hpp"
@@ -100,18 +100,9 @@ std::optional<VersionSign> wanted_version(const SceneConstants& constants, const
     return wanted;
 }
 
-/// Takes the moment that is wanted out of what fills in the file's variables.
-std::optional<double> take_time(SceneConstants& constants, const std::string& path) {
-    if (constants.contains(std::string(animation_constant)))
-        throw UserError({path, 0}, "pbrt's motion has no names, so no 'animation' can be chosen");
-    const auto time = constants.extract(std::string(time_constant));
-    if (!time) return std::nullopt;
-    return std::strtod(time.mapped().c_str(), nullptr);  // a number, as a graph has it
-}
-
 SceneData read(Files& files, const std::string& path, const SceneConstants& given) {
     SceneConstants constants = given;
-    const auto seconds = take_time(constants, path);
+    const auto seconds = take_moment(constants, path, "pbrt's motion has");
     auto sign = wanted_version(constants, path);
     const bool told = sign.has_value();
     Report report;
