@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/json.hpp"
+#include "core/base/own_process.hpp"
 #include "core/base/plain_file.hpp"
 #include "tools/cli/lightings.hpp"
 #include "tools/cli/loading.hpp"
@@ -97,7 +98,7 @@ public:
         requests_.front().request.read = picture_.read;
         TrialCourse course;
         course.run = launcher_.try_run;
-        course.processor_seconds = seconds_of_this_process;
+        course.processor_seconds = processor_seconds;
         course.asked = asked_;
         const auto trials = run_trials(requests_, course);
         auto best = best_lighting(trials, asked_);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "core/run/assembly/job.hpp"
 #include "core/run/assembly/load_scene.hpp"
 #include "core/run/serial/serial.hpp"
+#include "tools/pictures/picture_notes.hpp"
 #include "tools/request/run_settings.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/store/result_cache.hpp"
@@ -34,12 +34,8 @@ std::uint32_t samples_at(const Picture& picture, std::size_t index, const FilmFo
     if (picture.done < 1)
         not_explained("is a preview, and doesn't tell how many samples its pixels have; let its run finish first");
     // A run may have ended before it had all that its graph wants.
-    const auto said = picture.notes.texts.find("samples");
-    std::uint32_t samples = 0;
-    if (said != picture.notes.texts.end() &&
-        std::from_chars(said->second.data(), said->second.data() + said->second.size(), samples).ec == std::errc())
-        return std::clamp(samples, 1u, format.samples);
-    return format.samples;
+    const auto noted = noted_samples(picture);
+    return noted ? std::clamp(*noted, 1u, format.samples) : format.samples;
 }
 
 void expect_same_shape(const Picture& picture, const FilmFormat& format) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <charconv>
+#include <system_error>
 
 #include "core/base/build_info.hpp"
 #include "core/base/joined.hpp"
@@ -55,6 +57,15 @@ void add_words(const PictureWords& words, Picture& picture) {
     for (auto& matte : picture.mattes)
         if (const auto found = words.manifests.find(matte.name); found != words.manifests.end())
             matte.manifest = found->second;
+}
+
+std::optional<std::uint32_t> noted_samples(const Picture& picture) {
+    const auto said = picture.notes.texts.find(samples_note);
+    if (said == picture.notes.texts.end()) return std::nullopt;
+    std::uint32_t samples = 0;
+    const auto& text = said->second;
+    if (std::from_chars(text.data(), text.data() + text.size(), samples).ec != std::errc()) return std::nullopt;
+    return samples;
 }
 
 }  // namespace lightnet

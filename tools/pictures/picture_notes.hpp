@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/film/film.hpp"
@@ -33,5 +34,10 @@ std::string manifest_of(const SceneData& scene, NamedBy by);
 
 /// Puts them into a picture.
 void add_words(const PictureWords& words, Picture& picture);
+
+/// The note of a picture that says how many samples its pixels have, an attribute of its file.
+inline constexpr const char* samples_note = "samples";
+/// What it says; none: it is not there, or no number.
+std::optional<std::uint32_t> noted_samples(const Picture& picture);
 
 }  // namespace lightnet

@@ -55,12 +55,6 @@ void fill(PlaceReport& place, const PlaceRecord& record) {
     place.idle = in_seconds(record.idle_ns);
 }
 
-double seconds_by(clockid_t clock) {
-    timespec now{};
-    ::clock_gettime(clock, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 }  // namespace
 
 std::vector<NodeReport> nodes_without_figures(const Graph& graph) {
@@ -111,7 +105,10 @@ void add_figures(RunReport& report, const std::vector<PlaceRecord>& records) {
     for (auto& node : report.nodes) fill(node, nodes[node.name]);
 }
 
-double seconds_of_this_thread() { return seconds_by(CLOCK_THREAD_CPUTIME_ID); }
-double seconds_of_this_process() { return seconds_by(CLOCK_PROCESS_CPUTIME_ID); }
+double seconds_of_this_thread() {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace lightnet

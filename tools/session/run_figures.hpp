@@ -19,8 +19,7 @@ std::vector<LayerReport> light_of_layers(const Picture& picture);
 /// Adds up per node and per edge what the records say, and gives each place of the report its own.
 void add_figures(RunReport& report, const std::vector<PlaceRecord>& records);
 
-/// Seconds that the calling thread has run, or all threads of this process together.
+/// Seconds that the calling thread has run.
 double seconds_of_this_thread();
-double seconds_of_this_process();
 
 }  // namespace lightnet

@@ -10,6 +10,7 @@
 #include "core/film/npz.hpp"
 #include "core/film/png.hpp"
 #include "tools/pictures/clean.hpp"
+#include "tools/pictures/picture_notes.hpp"
 #include "tools/session/run_figures.hpp"
 #include "tools/session/run_recorder.hpp"
 
@@ -18,7 +19,7 @@ namespace lightnet {
 Picture RunRecorder::picture_now() const {
     Picture picture = steps_.picture().picture(scale_);
     add_words(words_, picture);
-    picture.notes.texts["samples"] = std::to_string(steps_.picture().format().samples);
+    picture.notes.texts[samples_note] = std::to_string(steps_.picture().format().samples);
     return picture;
 }
 

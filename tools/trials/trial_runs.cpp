@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "core/base/own_process.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/run.hpp"
 #include "tools/session/run_figures.hpp"
@@ -18,7 +19,7 @@ namespace {
 class Limit {
 public:
     explicit Limit(double seconds)
-        : end_(seconds_of_this_process() + seconds), thread_([this](const std::stop_token& stop) { wait(stop); }) {}
+        : end_(processor_seconds() + seconds), thread_([this](const std::stop_token& stop) { wait(stop); }) {}
 
     const Signals& signals() const { return signals_; }
 
@@ -26,7 +27,7 @@ private:
     void wait(const std::stop_token& stop) {
         constexpr std::chrono::milliseconds often(10);  // handlers of signals can't wake others
         std::unique_lock lock(mutex_);
-        while (!stop.stop_requested() && !watch_signals().any && seconds_of_this_process() < end_)
+        while (!stop.stop_requested() && !watch_signals().any && processor_seconds() < end_)
             ended_.wait_for(lock, stop, often, [] { return false; });
         if (stop.stop_requested()) return;
         signals_.superseded = true;

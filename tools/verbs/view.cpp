@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/film/clean/clean.hpp"
 #include "core/film/exr.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "tools/cli/launcher.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <thread>
@@ -12,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/film/clean/clean.hpp"
+#include "tools/pictures/picture_notes.hpp"
 
 namespace lightnet {
 namespace {
@@ -19,14 +19,6 @@ namespace {
 const std::string lone_layer = "picture";
 
 Window window_of(const Picture& picture) { return {picture.x, picture.y, picture.width, picture.height}; }
-
-std::uint32_t samples_said(const Picture& picture) {
-    const auto said = picture.notes.texts.find("samples");
-    std::uint32_t samples = 0;
-    if (said != picture.notes.texts.end())
-        std::from_chars(said->second.data(), said->second.data() + said->second.size(), samples);
-    return samples;
-}
 
 // A name's colour, by its number; bright enough to be told from black.
 Rgb colour_of(float id) {
@@ -77,7 +69,7 @@ FilmFormat format_of(const Picture& picture) {
     format.width = picture.whole_width ? picture.whole_width : picture.x + picture.width;
     format.height = picture.whole_height ? picture.whole_height : picture.y + picture.height;
     format.crop = window_of(picture);
-    format.samples = samples_said(picture);
+    format.samples = noted_samples(picture).value_or(0);
     for (const auto& layer : picture.layers) {
         format.layers.push_back(layer.name);
         format.gains.push_back(layer.gain);
