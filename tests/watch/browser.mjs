@@ -215,6 +215,7 @@ try {
     assert(sum(apart) > 128 * 128 * 255 && sum(apart) < sum(noisy), "the difference is small, and there");
     await viewed.getByTestId("difference").uncheck();
     await viewed.getByTestId("flicker").check();
+    await pause(400);
     const turns = new Set();
     for (let i = 0; i < 12; ++i, await pause(150)) turns.add(sum(await pixels(viewed)));
     assert.equal(turns.size, 2, "two pictures take turns");
