@@ -1,6 +1,6 @@
 #include "core/estimate/aim.hpp"
 
-#include "core/scene/lamps/prefix_cdf.hpp"
+#include "core/base/math/prefix_cdf.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,19 +12,19 @@
 namespace lightnet {
 namespace {
 
-PointLight shaped(const PointLight& light, const LightProfile& profile, const std::optional<Vec3>& down) {
-    const Matrix luminaire = down ? hung(*down) : light.luminaire;
-    return {light.position, light.intensity, light.label, pattern_of(profile, luminaire), luminaire};
-}
-PointLight shaped(const SpotLight& light, const LightProfile& profile) {
-    return {light.position, light.intensity, light.label, pattern_of(profile, light.luminaire), light.luminaire};
-}
-
-/// None: it comes from infinity.
+/// `down`: of a light that shines alike in all directions. None: it is no luminaire.
 std::optional<BareLight> shaped(const BareLight& light, const LightProfile& profile, const std::optional<Vec3>& down) {
-    if (const auto* point = std::get_if<PointLight>(&light)) return shaped(*point, profile, down);
-    if (const auto* spot = std::get_if<SpotLight>(&light)) return shaped(*spot, profile);
-    return std::nullopt;
+    return std::visit(
+        [&]<IsLight L>(const L& one) -> std::optional<BareLight> {
+            if constexpr (IsLuminaire<L>) {
+                const Matrix luminaire = down && one.aim() == Vec3{} ? hung(*down) : one.luminaire;
+                L bright = one;
+                return PointLight{one.position, bright.strength(), one.label, pattern_of(profile, luminaire),
+                                  luminaire};
+            }
+            return std::nullopt;
+        },
+        light);
 }
 
 /// Also at later steps, where it moves.
@@ -35,6 +35,10 @@ bool shape(SceneData& scene, std::size_t which, const LightProfile& profile, con
     for (BareLight& step : SceneMotion::steps_after(scene.motion.lights, which))
         if (const auto then = shaped(step, profile, down)) step = *then;
     return true;
+}
+
+std::string name_of(const BareLight& light) {
+    return std::visit([](const auto& one) { return one.name; }, light);
 }
 
 std::optional<LightProfile> profile_in(const std::string& path, Files& files, std::vector<Problem>& problems,
@@ -69,7 +73,8 @@ void put_profiles(std::span<const ProfileOverride> profiles, const std::optional
             if (!done.insert(which).second)
                 fault = "a lamp called " + in_quotes(lamp) + " has another profile already";
             else if (profile && !shape(scene, which, *profile, down))
-                fault = "a lamp called " + in_quotes(lamp) + " is a sun: it has no profile";
+                fault = "a lamp called " + in_quotes(lamp) + " is a " + name_of(scene.lights[which]) +
+                        ": it has no profile";
         }
         if (!fault.empty()) problems.push_back({where, "'ies': " + fault});
     }

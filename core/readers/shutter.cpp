@@ -62,12 +62,12 @@ bool same_parts(const ShapeGeometry& a, const ShapeGeometry& b) {
 }
 
 bool same_place(const BareLight& a, const BareLight& b) {
-    const auto* spot = std::get_if<SpotLight>(&a);
-    if (const auto* other = std::get_if<SpotLight>(&b); spot && other)
-        return spot->position == other->position && spot->axis == other->axis && spot->intensity == other->intensity &&
-               spot->inner == other->inner && spot->outer == other->outer;
-    const auto *point = std::get_if<PointLight>(&a), *other = std::get_if<PointLight>(&b);
-    return !point || !other || (point->position == other->position && point->intensity == other->intensity);
+    return std::visit(
+        [&]<IsLight L>(const L& one) {
+            if constexpr (IsNear<L>) return one.stands_as(std::get<L>(b));
+            return true;
+        },
+        a);
 }
 
 double distance(const Matrix& a, const Matrix& b, double size) {
@@ -116,17 +116,18 @@ bool straight(const Matrix& a, const Matrix& b, const Matrix& there, double size
         for (std::size_t j = 0; j < 3; ++j) scale = std::max(scale, std::fabs(there.m[i][j]));
     return distance(middle(a, b), there, size) <= allowed * size * scale;
 }
+template <IsNear L>
+bool straight(const L& a, const L& b, const L& there) {
+    return off(a.position, b.position, there.position) <= 1e-2 * double{length(b.position - a.position)} + 1e-9 &&
+           off(a.aim(), b.aim(), there.aim()) <= allowed;
+}
 bool straight(const BareLight& a, const BareLight& b, const BareLight& there) {
-    const auto near = [](const auto& one, const auto& other, const auto& here) {
-        return off(one.position, other.position, here.position) <=
-               1e-2 * double{length(other.position - one.position)} + 1e-9;
-    };
-    if (const auto* point = std::get_if<PointLight>(&a))
-        return near(*point, std::get<PointLight>(b), std::get<PointLight>(there));
-    const auto *spot = std::get_if<SpotLight>(&a), *other = std::get_if<SpotLight>(&b);
-    if (!spot) return true;
-    const auto& here = std::get<SpotLight>(there);
-    return near(*spot, *other, here) && off(spot->axis, other->axis, here.axis) <= allowed;
+    return std::visit(
+        [&]<IsLight L>(const L& one) {
+            if constexpr (IsNear<L>) return straight(one, std::get<L>(b), std::get<L>(there));
+            return true;
+        },
+        a);
 }
 
 /// Reads moments, and sets what moves beside what it was at first.

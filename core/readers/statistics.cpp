@@ -1,7 +1,6 @@
 #include "core/readers/statistics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "core/base/math/moved_box.hpp"
@@ -56,12 +55,8 @@ void measure(const SceneData& scene, SceneStatistics& found) {
 }
 
 void count_lights(const SceneData& scene, SceneStatistics& found) {
-    for (const auto& light : scene.lights) {
-        static constexpr std::array names{"points", "spots", "directions"};
-        static_assert(names.size() == std::variant_size_v<BareLight>);
-        const auto* far = std::get_if<DirectionalLight>(&light);
-        ++found.lights[far && far->half_angle > 0 ? "suns" : names[light.index()]];
-    }
+    for (const auto& light : scene.lights)
+        ++found.lights[std::visit([](const auto& one) { return one.names(); }, light)];
     for (const auto& environment : scene.environments)
         ++found.lights[environment.image ? "environments with an image" : "constant environments"];
 }

@@ -122,9 +122,12 @@ private:
 }  // namespace
 
 bool in_reach(const BareLight& light) {
-    if (const auto* point = std::get_if<PointLight>(&light)) return in_reach(point->position);
-    if (const auto* spot = std::get_if<SpotLight>(&light)) return in_reach(spot->position);
-    return true;
+    return std::visit(
+        []<IsLight L>(const L& one) {
+            if constexpr (IsNear<L>) return in_reach(one.position);
+            return true;
+        },
+        light);
 }
 
 std::string camera_fault(const CameraData& data, const FilmData& film) {

@@ -13,6 +13,7 @@
 #include "core/base/lamp_groups.hpp"
 #include "core/base/math/box.hpp"
 #include "core/base/query.hpp"
+#include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/camera/camera.hpp"
 #include "core/scene/data/scene_data.hpp"
@@ -22,7 +23,6 @@
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/surface.hpp"
 
 namespace lightnet {

@@ -9,7 +9,7 @@
 #include "core/readers/daylight/clear_sky.hpp"
 #include "core/readers/daylight/daylight.hpp"
 #include "core/readers/daylight/sun_position.hpp"
-#include "core/scene/lamps/environment.hpp"
+#include "core/scene/bare_lights/environment.hpp"
 
 namespace lightnet::daylight_test {
 namespace {

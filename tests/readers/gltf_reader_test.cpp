@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "core/scene/bare_lights/environment.hpp"
 #include "core/scene/data/surface_names.hpp"
-#include "core/scene/lamps/environment.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/light_profile_text.hpp"
 #include "tests/support/scene_text.hpp"

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "core/scene/lamps/environment.hpp"
+#include "core/scene/bare_lights/environment.hpp"
 #include "tests/support/light_profile_text.hpp"
 #include "tests/support/scene_text.hpp"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/base/math/sampling.hpp"
-#include "core/scene/lamps/environment.hpp"
+#include "core/scene/bare_lights/environment.hpp"
 #include "tests/support/light_profile_text.hpp"
 #include "tests/support/scene_text.hpp"
 

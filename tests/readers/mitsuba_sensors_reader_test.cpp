@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/lamps/slide_light.hpp"
+#include "core/scene/bare_lights/slide_light.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::mitsuba_sensors_reader_test {

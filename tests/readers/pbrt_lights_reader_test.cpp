@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/readers/common/spectra.hpp"
+#include "core/scene/bare_lights/slide_light.hpp"
 #include "core/scene/camera/camera.hpp"
-#include "core/scene/lamps/slide_light.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/pbrt_text.hpp"

@@ -6,8 +6,8 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/scene/bare_lights/bare_light.hpp"
 #include "core/scene/direct_light.hpp"
-#include "core/scene/lamps/bare_lights.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shapes/placed_quadric.hpp"
@@ -75,11 +75,11 @@ TEST(SpotLight, FallsOffAsItSays) {
     const float inner = 0.3f, outer = 0.5f;
     for (const auto falloff : {Falloff::smoothstep, Falloff::linear, Falloff::squared_linear}) {
         const SpotLight spot{{0, 0, 0}, {0, 0, 1}, {1, 1, 1}, inner, outer, falloff};
-        EXPECT_EQ(spot_falloff(spot, std::cos(0.29f)), 1);
-        EXPECT_EQ(spot_falloff(spot, std::cos(0.51f)), 0);
+        EXPECT_EQ(spot.share_at(std::cos(0.29f)), 1);
+        EXPECT_EQ(spot.share_at(std::cos(0.51f)), 0);
     }
     const auto at = [&](Falloff falloff, float angle) {
-        return spot_falloff({{0, 0, 0}, {0, 0, 1}, {1, 1, 1}, inner, outer, falloff}, std::cos(angle));
+        return SpotLight{{0, 0, 0}, {0, 0, 1}, {1, 1, 1}, inner, outer, falloff}.share_at(std::cos(angle));
     };
     const double t = (std::cos(0.4) - std::cos(0.5)) / (std::cos(0.3) - std::cos(0.5));
     EXPECT_NEAR(at(Falloff::linear, 0.4f), 0.5, 1e-4);
@@ -175,8 +175,8 @@ TEST(Power, OfASpotIsTheIntegralOfItsFalloff) {
         const SpotLight spot{{0, 0, 0}, normalize({1, 2, 2}), {7, 7, 7}, 0.6f, 1.1f, falloff};
         double integral = 0;
         constexpr int n = 100000;
-        for (int i = 0; i < n; ++i) integral += spot_falloff(spot, float(-1 + (i + 0.5) * 2 / n)) * 2.0 / n;
-        EXPECT_NEAR(power_of(spot).g / (2 * std::numbers::pi * 7 * integral), 1, 1e-4);
+        for (int i = 0; i < n; ++i) integral += spot.share_at(float(-1 + (i + 0.5) * 2 / n)) * 2.0 / n;
+        EXPECT_NEAR(spot.power().g / (2 * std::numbers::pi * 7 * integral), 1, 1e-4);
         SceneData data;
         data.lights.push_back(spot);
         expect_power(data, 2 * std::numbers::pi * 7 * integral);
@@ -200,7 +200,7 @@ TEST(Power, LeavesEachLightByItsShare) {
     data.lights.push_back(PointLight{{0, 2, 0}, {5, 1, 5}});
     data.lights.push_back(SpotLight{{0, -2, 0}, {0, 1, 0}, {5, 2, 5}, 0.1f, 0.4f});
     const double power = 12 * std::numbers::pi + std::numbers::pi * std::numbers::pi + 4 * std::numbers::pi +
-                         power_of(std::get<SpotLight>(data.lights[1])).g;
+                         std::get<SpotLight>(data.lights[1]).power().g;
     const auto emitted = flux_emitted(Scene(data));
     EXPECT_NEAR(emitted.mean, power, 4 * emitted.error);
 }

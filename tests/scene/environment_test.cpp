@@ -6,12 +6,12 @@
 #include <functional>
 #include <numbers>
 
+#include "core/base/math/prefix_cdf.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/sky_layout.hpp"
+#include "core/scene/bare_lights/environment.hpp"
 #include "core/scene/direct_light.hpp"
-#include "core/scene/lamps/environment.hpp"
-#include "core/scene/lamps/prefix_cdf.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"

@@ -8,7 +8,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/scene/lamps/environment.hpp"
+#include "core/scene/bare_lights/environment.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"

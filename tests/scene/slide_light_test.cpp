@@ -1,5 +1,5 @@
 // Spots that throw pictures.
-#include "core/scene/lamps/slide_light.hpp"
+#include "core/scene/bare_lights/slide_light.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/scene/lamps/bare_lights.hpp"
+#include "core/scene/bare_lights/bare_light.hpp"
 
 namespace lightnet::slide_light_test {
 namespace {

@@ -211,11 +211,7 @@ void Builder::finish_film() {
     for (auto& shape : scene_.shapes)
         if (shape.emission) shape.emission->radiance *= gain;
     for (auto& environment : scene_.environments) environment.radiance *= gain;
-    for (auto& light : scene_.lights) {
-        if (auto* point = std::get_if<PointLight>(&light)) point->intensity *= gain;
-        if (auto* spot = std::get_if<SpotLight>(&light)) spot->intensity *= gain;
-        if (auto* sun = std::get_if<DirectionalLight>(&light)) sun->irradiance *= gain;
-    }
+    for (auto& light : scene_.lights) std::visit([&](auto& one) { one.strength() *= gain; }, light);
 }
 
 }  // namespace lightnet::pbrt

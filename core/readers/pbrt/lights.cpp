@@ -14,8 +14,8 @@
 #include "core/readers/pbrt/older_light.hpp"
 #include "core/readers/pbrt/pictured_lights.hpp"
 #include "core/readers/pbrt/transforms.hpp"
-#include "core/scene/lamps/environment.hpp"
-#include "core/scene/lamps/slide_light.hpp"
+#include "core/scene/bare_lights/environment.hpp"
+#include "core/scene/bare_lights/slide_light.hpp"
 
 namespace lightnet::pbrt {
 namespace {

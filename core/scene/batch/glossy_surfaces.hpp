@@ -4,10 +4,10 @@
 #include <array>
 #include <cstdint>
 
+#include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/bsdf/glossy_columns.hpp"
 #include "core/scene/surfaces/heuristic.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/mesh_points.hpp"
 
 namespace lightnet {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
+#include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
 #include "core/scene/surfaces/heuristic.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/mesh_points.hpp"
 
 namespace lightnet {

@@ -33,7 +33,7 @@ inline constexpr std::array<bool, sizeof...(Models)> choosing<std::variant<Model
 class Bsdf {
 public:
     /// Those of materials, and that of a point in a medium.
-    using Model = ModelsWith<ModelsOf<AnyMaterial>::type, PhaseBsdf>::type;
+    using Model = EachOnce<ModelsOf<AnyMaterial>::type, PhaseBsdf>;
     /// Some share of a surface; seen from one of its sides only, or from both.
     struct Part;
 

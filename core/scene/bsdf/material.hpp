@@ -5,10 +5,10 @@
 #include <iterator>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "core/base/each_once.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/scene/bsdf/blends.hpp"
 #include "core/scene/bsdf/burley.hpp"
@@ -52,20 +52,6 @@ concept IsMaterial = (Scatters<M> != Blends<M>)&&requires(M& material, const M& 
     visit_members(material, [](auto&...) {});
 };
 
-/// Each model of scattering that materials can be, once.
-template <class Models, class... More>
-struct ModelsWith {
-    using type = Models;
-};
-template <class... Models, class Next, class... More>
-struct ModelsWith<std::variant<Models...>, Next, More...>
-    : ModelsWith<std::conditional_t<(std::same_as<Models, Next> || ...), std::variant<Models...>,
-                                    std::variant<Models..., Next>>,
-                 More...> {};
-template <class... Models, class... Next, class... More>
-struct ModelsWith<std::variant<Models...>, std::variant<Next...>, More...>
-    : ModelsWith<std::variant<Models...>, Next..., More...> {};
-
 /// What at() of a material gives: a model, a variant of some; blends have none.
 template <class M>
 struct ScatteringOf {
@@ -81,7 +67,8 @@ struct ModelsOf;
 template <class... Materials>
 struct ModelsOf<std::variant<Materials...>> {
     static_assert((IsMaterial<Materials> && ...), "a material must say what IsMaterial asks");
-    using type = typename ModelsWith<std::variant<>, typename ScatteringOf<Materials>::type...>::type;
+    /// Each model of scattering that materials can be, once.
+    using type = EachOnce<typename ScatteringOf<Materials>::type...>;
 };
 
 struct Material {

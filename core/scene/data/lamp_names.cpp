@@ -3,7 +3,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -48,10 +47,7 @@ void each_lamp(Scene& scene, With&& with) {
         with(namer.names({label.name, shape.name, scene.materials[shape.material].name}, "lamp"), "shape", label.group);
     }
     for (auto& light : scene.lights) {
-        static constexpr std::array words{"point", "spot", "sun"};
-        static_assert(words.size() == std::variant_size_v<BareLight>);
-        const char* what = words[light.index()];
-        std::visit([&](auto& one) { with(namer.names({one.label.name}, what), what, one.label.group); }, light);
+        std::visit([&](auto& one) { with(namer.names({one.label.name}, one.name), one.name, one.label.group); }, light);
     }
     const auto bright = [](const EnvironmentData& one) { return !is_black(one.radiance); };
     if (std::any_of(scene.environments.begin(), scene.environments.end(), bright))

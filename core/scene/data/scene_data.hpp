@@ -16,6 +16,8 @@
 #include "core/base/math/transform.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/base/query.hpp"
+#include "core/scene/bare_lights/bare_light.hpp"
+#include "core/scene/bare_lights/environment_data.hpp"
 #include "core/scene/bsdf/material.hpp"
 #include "core/scene/camera/camera_data.hpp"
 #include "core/scene/media/medium.hpp"
@@ -23,12 +25,6 @@
 #include "core/scene/textures/texture.hpp"
 
 namespace lightnet {
-
-/// What a lamp is known by: nothing of what shines.
-struct LampLabel {
-    std::string name{};       // as in the file; may be empty: see lamps_of()
-    std::uint32_t group = 0;  // index into SceneData::groups
-};
 
 /// Emission of a shape: radiance in W·sr⁻¹·m⁻² on the side of its normal, or on both.
 struct AreaEmission {
@@ -123,104 +119,6 @@ struct SceneVariant {
     std::string name{};
     bool shown = false;  // else the file's own materials are, or another's
 };
-
-/// Light from infinity: `radiance` (W·sr⁻¹·m⁻²), or an image times it.
-/// A rectangle in world space through which light from infinity comes, and nowhere else: a window. Towards that light
-/// it is crossed along side × other.
-struct Portal {
-    Vec3 corner, side, other;  // the latter two: from that corner to those beside it
-
-    /// Does a ray go out through it?
-    bool passes(Vec3 origin, Vec3 direction) const { return density(origin, direction) > 0; }
-    /// Of directions (unit) to evenly distributed points of it, sr⁻¹; 0 where they don't go out.
-    float density(Vec3 origin, Vec3 direction) const {
-        const Vec3 out = cross(side, other);
-        const float along = dot(direction, out);
-        if (!(along > 0)) return 0;
-        const float distance = dot(corner - origin, out) / along;
-        const Vec3 from_corner = origin + direction * distance - corner;
-        const float a = dot(from_corner, side), b = dot(from_corner, other);
-        const bool inside = a >= 0 && a <= dot(side, side) && b >= 0 && b <= dot(other, other);
-        return distance > 0 && inside ? distance * distance / along : 0;
-    }
-    Vec3 at(Vec2 u) const { return corner + side * u.x + other * u.y; }
-};
-void visit_members(Is<Portal> auto& portal, const auto& visit) {
-    auto& [corner, side, other] = portal;
-    visit(corner, side, other);
-}
-
-struct EnvironmentData {
-    Rgb radiance{1, 1, 1};
-    std::shared_ptr<const Image> image{};
-    enum class Layout { latitude_longitude, equal_area } layout = Layout::latitude_longitude;
-    Matrix to_world{};  // a rotation. Latitude-longitude: +y is the top row, -z the picture's middle, +x right of it.
-                        // Equal area: the octahedral map of Clarberg (2008) as pbrt lays it out: +z is the centre.
-    std::optional<Portal> portal{};  // none: it is seen from everywhere
-};
-void visit_members(Is<EnvironmentData> auto& environment, const auto& visit) {
-    auto& [radiance, image, layout, to_world, portal] = environment;
-    visit(radiance, image, layout, to_world, portal);
-}
-
-/// Lights that stand for no shape. World space.
-struct PointLight {
-    Vec3 position;
-    Rgb intensity;  // W·sr⁻¹
-    LampLabel label{};
-    std::optional<EnvironmentData> pattern{};  // times this, by the direction into which it shines
-    Matrix luminaire{};                        // turns its own axes, whose straight down is -z, as the file has it
-};
-void visit_members(Is<PointLight> auto& light, const auto& visit) {
-    auto& [position, intensity, label, pattern, luminaire] = light;
-    visit(position, intensity, pattern);
-}
-
-/// A picture that light passes. At distance 1 along z it is 2 half_width wide and 2 half_height high, dark beyond.
-struct Slide {
-    std::shared_ptr<const Image> image{};
-    Matrix to_world{};  // a rotation, perhaps mirrored: x to the picture's right, y down in it, z ahead
-    float half_width = 1, half_height = 1;
-    bool even_on_planes = false;  // the intensity is divided by cos³, so that white lights planes across z evenly
-};
-void visit_members(Is<Slide> auto& slide, const auto& visit) {
-    auto& [image, to_world, half_width, half_height, even_on_planes] = slide;
-    visit(image, to_world, half_width, half_height, even_on_planes);
-}
-
-/// Full intensity within `inner` of its axis, none beyond `outer` (radians), between them as `falloff` says.
-struct SpotLight {
-    Vec3 position, axis{0, 0, 1};  // axis: unit
-    Rgb intensity;                 // W·sr⁻¹, on the axis
-    float inner = 0, outer = 0;
-    enum class Falloff {  // in the cosine but for `linear`, which is in the angle
-        smoothstep,
-        linear,
-        squared_linear,
-        fourth_power
-    } falloff = Falloff::smoothstep;
-    LampLabel label{};
-    std::optional<Slide> slide{};  // times this; z is the axis
-    Matrix luminaire{};            // as that of a point, which shines straight down along the axis
-};
-void visit_members(Is<SpotLight> auto& light, const auto& visit) {
-    auto& [position, axis, intensity, inner, outer, falloff, label, slide, luminaire] = light;
-    visit(position, axis, intensity, inner, outer, falloff, slide);
-}
-
-/// From infinity. With an angle it is a disk in the sky, a sun, which rays can meet.
-struct DirectionalLight {
-    Vec3 direction{0, 0, -1};  // in which its middle shines, unit
-    Rgb irradiance;            // W·m⁻², on a plane across it
-    LampLabel label{};
-    float half_angle = 0;  // radians, from the middle of the disk to its rim, below π/2; 0: one direction only
-};
-void visit_members(Is<DirectionalLight> auto& light, const auto& visit) {
-    auto& [direction, irradiance, label, half_angle] = light;
-    visit(direction, irradiance, half_angle);
-}
-
-using BareLight = std::variant<PointLight, SpotLight, DirectionalLight>;
 
 /// One of a scene's shapes, instances or lights while the shutter is open: the scene has it as it is when that opens,
 /// and `later` at evenly spaced steps, the last when it closes. Between two steps all numbers go evenly.

@@ -2,9 +2,9 @@
 
 #include "core/base/math/box.hpp"
 #include "core/base/math/frame.hpp"
+#include "core/base/math/prefix_cdf.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/lamps/ball_lamp.hpp"
-#include "core/scene/lamps/prefix_cdf.hpp"
 #include "core/scene/lamps/quadric_lamp.hpp"
 #include "core/scene/surfaces/fetch_ahead.hpp"
 #include "core/scene/surfaces/triangle.hpp"

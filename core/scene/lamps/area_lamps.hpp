@@ -11,6 +11,7 @@
 #include "core/base/lamp_groups.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/ball_lamp.hpp"
 #include "core/scene/lamps/lamp_balls.hpp"
@@ -18,7 +19,6 @@
 #include "core/scene/lamps/lit_point.hpp"
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/shading.hpp"
 #include "core/scene/surfaces/surface.hpp"
 

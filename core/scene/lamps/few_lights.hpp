@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/bare_lights/light_bounds.hpp"
 #include "core/scene/lamps/lamp_met.hpp"
-#include "core/scene/lamps/light_bounds.hpp"
 #include "core/scene/lamps/lit_point.hpp"
 
 namespace lightnet {

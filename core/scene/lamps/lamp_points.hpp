@@ -7,9 +7,9 @@
 
 #include "core/base/math/columns.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/lamps/ball_lamp.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
 
 namespace lightnet {
 

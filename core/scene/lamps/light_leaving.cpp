@@ -1,9 +1,8 @@
 // Light that leaves lights, for those who follow it from there.
 #include "core/base/math/frame.hpp"
+#include "core/base/math/prefix_cdf.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/scene/lamps/bare_lights.hpp"
 #include "core/scene/lamps/lights.hpp"
-#include "core/scene/lamps/prefix_cdf.hpp"
 
 #include <algorithm>
 #include <variant>
@@ -14,8 +13,7 @@ namespace lightnet {
 Rgb Lights::power(std::size_t light) const {
     if (light < lamps_.size()) return lamps_.power(light);
     light -= lamps_.size();
-    if (light < moving_near_.size() && moving_near_[light]) return moving_near_[light]->power();
-    if (light < near_.size()) return std::visit([](const auto& l) { return power_of(l); }, near_[light]);
+    if (light < near_.size()) return std::visit([](const auto& l) { return Rgb(l.power()); }, near_[light]);
     light -= near_.size();
     const float disk = pi * around_.radius * around_.radius;
     if (light < far_.size()) return far_.total(light) * disk;
@@ -45,15 +43,10 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
         return one ? std::optional(weighted(*one, one->group)) : std::nullopt;
     }
     light -= lamps_.size();
-    if (light < near_.size()) {
-        const bool moves = light < moving_near_.size() && moving_near_[light];
-        const auto from_near = [&](const auto& l) {
-            return weighted(
-                moves ? moving_near_[light]->emission(direction_sample, time) : emission_of(l, direction_sample),
-                group(l.label));
-        };
-        return std::visit(from_near, near_[light]);
-    }
+    if (light < near_.size())
+        return std::visit(
+            [&](const auto& l) { return weighted(emission_of(l, direction_sample, time), group(l.label)); },
+            near_[light]);
     light -= near_.size();
     if (light < far_.size()) {
         const Vec3 along = far_.shines_along(light, direction_sample);

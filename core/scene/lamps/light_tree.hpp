@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/base/math/vec.hpp"
+#include "core/scene/bare_lights/light_bounds.hpp"
 #include "core/scene/lamps/few_lights.hpp"
 #include "core/scene/lamps/lamp_met.hpp"
-#include "core/scene/lamps/light_bounds.hpp"
 #include "core/scene/lamps/lit_point.hpp"
 
 namespace lightnet {

@@ -1,9 +1,8 @@
 #include "core/scene/lamps/lights.hpp"
 
+#include "core/base/math/prefix_cdf.hpp"
 #include "core/base/thread_pool.hpp"
-#include "core/scene/lamps/bare_lights.hpp"
 #include "core/scene/lamps/lamp_points.hpp"
-#include "core/scene/lamps/prefix_cdf.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,8 +27,11 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
       lamps_(data, shading, wanted.groups, groups_ > 1) {
     const auto is_wanted = [&](std::uint32_t group) { return (wanted.groups >> group & 1) != 0; };
     for (std::size_t i = 0; i < data.lights.size(); ++i)
-        if (std::visit([&](const auto& one) { return is_wanted(one.label.group); }, data.lights[i]))
-            add(data.lights[i], SceneMotion::steps_after(data.motion.lights, i));
+        std::visit(
+            [&](const auto& one) {
+                if (is_wanted(one.label.group)) add(one, SceneMotion::steps_after(data.motion.lights, i));
+            },
+            data.lights[i]);
     std::vector<double> light_of_maps;
     for (const auto& each : data.environments) {
         if (!is_wanted(data.environment_group)) break;
@@ -52,25 +54,20 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
     prefix_cdf(by_power, power_ends_);
 }
 
-void Lights::add(const BareLight& light, std::span<const BareLight> later) {
-    if (const auto* directional = std::get_if<DirectionalLight>(&light)) return far_.add(*directional, groups_ > 1);
-    if (const auto* spot = std::get_if<SpotLight>(&light)) near_.push_back(near_light_of(*spot));
-    if (const auto* point = std::get_if<PointLight>(&light)) near_.push_back(near_light_of(*point));
-    if (later.empty()) return;
-    moving_near_.resize(near_.size());
-    moving_near_.back().emplace(light, later);
-}
-
-LightBounds Lights::bounds_of_near(std::size_t light) const {
-    if (light < moving_near_.size() && moving_near_[light]) return moving_near_[light]->bounds();
-    return std::visit([](const auto& one) { return bounds_of(one); }, near_[light]);
+template <IsLight L>
+void Lights::add(const L& light, std::span<const BareLight> later) {
+    if constexpr (IsFar<L>)
+        far_.add(light.disk(), group(light.label));
+    else if (later.empty())
+        std::visit([&](auto&& ready) { near_.emplace_back(std::move(ready)); }, ReadyOf<L>(light.ready()));
+    else
+        near_.emplace_back(MovingLight<L>(light, later));
 }
 
 std::optional<LightSample> Lights::from_near(std::size_t light, const LitPoint& from) const {
-    const bool moves = light < moving_near_.size() && moving_near_[light];
     return std::visit(
         [&](const auto& one) {
-            auto found = moves ? moving_near_[light]->from(from.position, from.time) : light_from(one, from.position);
+            auto found = light_from(one, from.position, from.time);
             if (found) found->group = group(one.label);
             return found;
         },
@@ -82,7 +79,8 @@ void Lights::build_tree() {
     parallel_for(lamps_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) bounds[i] = lamps_.bounds(i);
     });
-    for (std::size_t i = 0; i < near_.size(); ++i) bounds.push_back(bounds_of_near(i));
+    for (const NearLight& light : near_)
+        bounds.push_back(std::visit([](const auto& one) { return one.bounds(); }, light));
     const auto in_tree =
         std::size_t(std::count_if(bounds.begin(), bounds.end(), [](const auto& b) { return b.intensity > 0; }));
     tree_ = LightTree(bounds);

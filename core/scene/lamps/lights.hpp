@@ -9,17 +9,16 @@
 
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/scene/bare_lights/environment.hpp"
+#include "core/scene/bare_lights/light_sample.hpp"
+#include "core/scene/bare_lights/moving_light.hpp"
+#include "core/scene/bare_lights/suns.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/area_lamps.hpp"
-#include "core/scene/lamps/bare_lights.hpp"
-#include "core/scene/lamps/environment.hpp"
 #include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/lamps/lit_point.hpp"
-#include "core/scene/lamps/moving_light.hpp"
-#include "core/scene/lamps/suns.hpp"
 #include "core/scene/shapes/ray.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/shading.hpp"
 #include "core/scene/surfaces/surface.hpp"
 
@@ -104,8 +103,8 @@ private:
     std::optional<LightSample> from_tree(const LitPoint& from, float choice, Vec2 u) const;
     std::optional<LightSample> from_chosen(const LightChoice& chosen, const LitPoint& from, Vec2 u) const;
     std::optional<LightSample> from_near(std::size_t light, const LitPoint& from) const;
-    LightBounds bounds_of_near(std::size_t light) const;
-    void add(const BareLight& light, std::span<const BareLight> later);
+    template <IsLight L>
+    void add(const L& light, std::span<const BareLight> later);
     std::optional<LightSample> from_beside(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_map(Vec3 from, float choice, Vec2 u) const;
@@ -130,8 +129,7 @@ private:
     std::size_t groups_;
     std::uint32_t environment_group_;
     AreaLamps lamps_;
-    std::vector<NearLight> near_;                          // points and spots
-    std::vector<std::optional<MovingLight>> moving_near_;  // by those, where any moves
+    std::vector<NearLight> near_;
     Suns far_;
     std::vector<Environment> environments_;
     std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled, as they have a map or a portal

@@ -6,9 +6,9 @@
 #include <span>
 
 #include "core/base/math/columns.hpp"
+#include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/column_shape.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
 #include "core/scene/surfaces/surface.hpp"
 #include "core/scene/surfaces/triangle.hpp"
 

@@ -1,15 +1,13 @@
 // A point that throws a picture, as a slide projector does.
 #pragma once
 
-#include <cstdint>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/scene/data/scene_data.hpp"
-#include "core/scene/lamps/light_bounds.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
+#include "core/scene/bare_lights/near_light.hpp"
+#include "core/scene/bare_lights/spot_light.hpp"
 
 namespace lightnet {
 
@@ -24,6 +22,8 @@ public:
     Rgb towards(Vec3 direction) const;
     /// All that it emits, W.
     const Rgb& power() const { return power_; }
+    /// See IsNearLight.
+    std::optional<LightSample> from(Vec3 at) const;
     LightBounds bounds() const;
     /// Light leaving it, by how bright the slide is there; flux as if it were the only light.
     Emission emission(Vec2 u) const;

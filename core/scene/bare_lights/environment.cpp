@@ -1,4 +1,4 @@
-#include "core/scene/lamps/environment.hpp"
+#include "core/scene/bare_lights/environment.hpp"
 
 #include "core/base/math/columns.hpp"
 #include "core/base/math/sampling.hpp"

@@ -1,4 +1,4 @@
-#include "core/scene/lamps/slide_light.hpp"
+#include "core/scene/bare_lights/slide_light.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/base/math/sampling.hpp"
-#include "core/scene/lamps/bare_lights.hpp"
 
 namespace lightnet {
 namespace {
@@ -52,7 +51,7 @@ Rgb SlideLight::at(Vec2 plane) const {
     const float u = 0.5f + plane.x / (2 * slide_.half_width), v = 0.5f + plane.y / (2 * slide_.half_height);
     if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) return {};
     const float cosine = cosine_at(plane);
-    float strength = spot_falloff(spot_, cosine);
+    float strength = spot_.share_at(cosine);
     if (strength == 0) return {};
     if (slide_.even_on_planes) strength /= cosine * cosine * cosine;
     const auto along = [](float at, std::uint32_t size) {
@@ -69,6 +68,12 @@ Rgb SlideLight::towards(Vec3 direction) const {
     const Vec3 d = local(direction);
     if (!(d.z > 0) || rows_.empty()) return {};
     return at({d.x / d.z, d.y / d.z});
+}
+
+std::optional<LightSample> SlideLight::from(Vec3 at) const {
+    const Vec3 way = at - position;
+    if (!(length_squared(way) > 0)) return {};
+    return from_point(position, towards(normalize(way)), at);
 }
 
 /// Each pixel by how bright it and those around it are, as the slide is looked up bilinearly.

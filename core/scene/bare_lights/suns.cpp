@@ -1,4 +1,4 @@
-#include "core/scene/lamps/suns.hpp"
+#include "core/scene/bare_lights/suns.hpp"
 
 #include "core/base/math/sampling.hpp"
 
@@ -7,23 +7,12 @@
 
 namespace lightnet {
 
-// A plane across it gets ∫ cos θ dω = π sin² of the radiance, and all of it together fills 2π (1 - cos).
-void Suns::add(const DirectionalLight& light, bool groups) {
-    Disk disk;
-    disk.axes = Frame::around(-light.direction);
-    disk.group = groups ? light.label.group : 0;
-    const float half = std::sin(std::clamp(light.half_angle, 0.0f, pi / 2) / 2);
-    disk.drop = 2 * half * half;
-    disk.total = light.irradiance * (2 / (2 - disk.drop));
-    if (disk.drop > 0) {
-        disk.density = 1 / (2 * pi * disk.drop);
-        disk.radiance = disk.total * disk.density;
-    }
+void Suns::add(const SunDisk& disk, std::uint32_t group) {
     if (disk.drop > 0 && !is_black(disk.radiance)) visible_.push_back(std::uint32_t(lights_.size()));
-    lights_.push_back(disk);
+    lights_.push_back({disk, group});
 }
 
-Vec3 Suns::towards(const Disk& disk, Vec2 u) const {
+Vec3 Suns::towards(const SunDisk& disk, Vec2 u) const {
     return disk.drop > 0 ? normalize(disk.axes.to_world(cone(u, disk.drop))) : disk.axes.z;
 }
 

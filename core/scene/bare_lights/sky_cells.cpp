@@ -1,10 +1,10 @@
-#include "core/scene/lamps/sky_cells.hpp"
+#include "core/scene/bare_lights/sky_cells.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
-#include "core/scene/lamps/prefix_cdf.hpp"
+#include "core/base/math/prefix_cdf.hpp"
 
 namespace lightnet {
 namespace {

@@ -6,11 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/math/frame.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/scene/data/scene_data.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
+#include "core/scene/bare_lights/directional_light.hpp"
+#include "core/scene/bare_lights/light_sample.hpp"
 
 namespace lightnet {
 
@@ -19,8 +18,7 @@ namespace lightnet {
 /// DECISIONS: suns-beside-the-tree
 class Suns {
 public:
-    /// `groups`: those of lamps are told apart; else all are of group 0.
-    void add(const DirectionalLight& light, bool groups);
+    void add(const SunDisk& disk, std::uint32_t group);
 
     std::size_t size() const { return lights_.size(); }
     /// Is there one that rays can meet?
@@ -38,14 +36,10 @@ public:
     std::uint32_t group(std::size_t light) const { return lights_[light].group; }
 
 private:
-    struct Disk {
-        Frame axes;      // z: towards its middle
-        float drop = 0;  // 1 - cosine of its angle; 0: one direction only
-        Rgb radiance, total;
-        float density = 0;  // of its directions, per steradian
+    struct Disk : SunDisk {
         std::uint32_t group = 0;
     };
-    Vec3 towards(const Disk& disk, Vec2 u) const;
+    Vec3 towards(const SunDisk& disk, Vec2 u) const;
 
     std::vector<Disk> lights_;
     std::vector<std::uint32_t> visible_;  // of these: they have an angle, and aren't black

@@ -12,10 +12,10 @@
 #include "core/base/math/frame.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/scene/data/scene_data.hpp"
-#include "core/scene/lamps/sky_cells.hpp"
+#include "core/scene/bare_lights/environment_data.hpp"
+#include "core/scene/bare_lights/light_sample.hpp"
+#include "core/scene/bare_lights/sky_cells.hpp"
 #include "core/scene/shapes/ray.hpp"
-#include "core/scene/surfaces/light_sample.hpp"
 
 namespace lightnet {
 
