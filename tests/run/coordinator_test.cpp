@@ -214,8 +214,9 @@ TEST_F(ConductorTrouble, OfAShardThatKillsWhoeverDoesItEndsTheRun) {
     } catch (const Error& error) {
         ended = error.what();
     }
-    EXPECT_EQ(ended,
-              "caustics: shard 4 of what it prepares is set aside: hosts died of it, with nothing else to do: a, a, a");
+    EXPECT_EQ(
+        ended,
+        "caustics: shard 4 of what a node prepares is set aside: hosts died of it, with nothing else to do: a, a, a");
 }
 
 // Those who learn anew are asked again, also one that is still at the pass before, and the others are not.

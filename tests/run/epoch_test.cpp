@@ -23,10 +23,14 @@ TEST(Epoch, RefusesAChannelThatWouldBeTakenForAnotherEpochs) {
     EXPECT_THROW(epoch.marked(1u << Epoch::channel_bits), Error);
 }
 
-TEST(Epoch, LeavesTheLastNumberOfAllToTheConductor) {
+TEST(Epoch, LeavesSomeChannelsToWhoLeadsAllMasters) {
     Epoch epoch;
-    for (std::uint32_t i = 1; i < Epoch::count; ++i) epoch.begin_next();
-    EXPECT_EQ(epoch.marked(Epoch::most_channels - 1), 0xfffffffeu);
+    for (std::uint32_t i = 0; i <= Epoch::count; ++i, epoch.begin_next()) {
+        ASSERT_FALSE(Epoch::is_own(epoch.marked(Epoch::most_channels - 1))) << i;
+        ASSERT_FALSE(epoch.has(Epoch::own(0))) << i;
+    }
+    EXPECT_TRUE(Epoch::is_own(Epoch::own(0)) && Epoch::is_own(Epoch::own(Epoch::most_channels - 1)));
+    EXPECT_EQ(Epoch::channel_of(Epoch::own(7)), 7u);
 }
 
 }  // namespace

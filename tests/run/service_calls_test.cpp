@@ -20,112 +20,35 @@ Bytes results(const std::vector<int>& values) {
     return join_shards(shards);
 }
 
-// One place does all shards, which are asked for one by one where there are few.
-class Worker {
-public:
-    explicit Worker(ServiceCall& call) : call_(call) { take_more(); }
-    // Under which number a shard went.
-    ShardDealer::CopyId operator[](std::uint32_t shard) {
-        take_more();
-        return ids_.at(shard);
-    }
-    void take_more() {
-        call_.dealer().join({{"a", 0}, 0}, 1, 0);
-        for (const auto& deal : call_.dealer().deal(1, 0)) ids_[deal.shards.first] = deal.id;
-    }
-
-private:
-    ServiceCall& call_;
-    std::map<std::uint32_t, ShardDealer::CopyId> ids_;
-};
-
-TEST(ServiceCall, PutsShardsTogetherInTheirOrderAndCountsTheFirstAnswerOnly) {
-    ServiceCall call({StepReport::Kind::map, 0, 3}, false);
-    Worker worker(call);
-    EXPECT_FALSE(call.answer(worker[1], results({1}), 0));
-    EXPECT_FALSE(call.answer(worker[1], results({9}), 0));
-    EXPECT_FALSE(call.answer(worker[0], results({0}), 0));
-    EXPECT_TRUE(call.answer(worker[2], results({2}), 0));
+TEST(ServiceCall, PutsShardsTogetherInTheirOrder) {
+    ServiceCall call({StepReport::Kind::map, 0, 4}, false);
+    call.take(1, results({1, 2}));
+    EXPECT_EQ(call.missing(), 2u);
+    call.take(0, results({0}));
+    call.take(3, results({3}));
+    EXPECT_EQ(call.missing(), 0u);
     call.complete_from_shards();
     const Mapped<std::uint8_t> result(call.result());
-    EXPECT_THAT(result.all(), testing::ElementsAre(0, 1, 2));
-    EXPECT_FALSE(call.answer(worker[0], results({5}), 0)) << "too late";
+    EXPECT_THAT(result.all(), testing::ElementsAre(0, 1, 2, 3));
 }
 
-TEST(ServiceCall, TakesNoResultsThatAreNotOfTheShardsThatWereAskedFor) {
-    ServiceCall call({StepReport::Kind::map, 0, 20}, false);
-    call.dealer().join({{"a", 0}, 0}, 1, 0);
-    const auto deal = call.dealer().deal(1, 0).front();
-    ASSERT_GT(deal.shards.count, 2u);
-    EXPECT_THROW(call.answer(deal.id, results({}), 0), Error);
-    EXPECT_THROW(call.answer(deal.id, results(std::vector<int>(deal.shards.count + 1)), 0), Error);
-    EXPECT_THROW(call.answer(deal.id, one_byte(3), 0), Error);
-    EXPECT_FALSE(call.answer(deal.id, results({0, 1}), 0)) << "some of them are welcome";
-    EXPECT_EQ(call.missing(), 18u);
+TEST(ServiceCall, KnowsResultsThatAreNotOfTheShardsThatWereAskedFor) {
+    const ServiceCall call({StepReport::Kind::map, 0, 20}, false);
+    EXPECT_THROW(call.check(3, results({})), Error);
+    EXPECT_THROW(call.check(3, results({0, 1, 2, 3})), Error);
+    EXPECT_THROW(call.check(3, one_byte(3)), Error);
+    EXPECT_THROW(call.check(3, nullptr), Error);
+    EXPECT_NO_THROW(call.check(3, results({0, 1}))) << "some of them are welcome";
 }
 
-// Three hosts do the shards; one of them, falsely. Who was named, and what came of it.
-std::pair<std::optional<Failure>, Bytes> with_liar(const std::string& liar, const std::vector<std::string>& hosts) {
-    constexpr std::uint32_t count = 12;
-    ServiceCall call({StepReport::Kind::map, 0, count}, false);
-    call.verify({1'000'000, 1});
-    for (const auto& host : hosts) call.dealer().join({{host, 0}, 0}, 1, 0);
-    bool all_there = false;
-    for (int turn = 0; turn < 100 && !all_there; ++turn) {
-        for (const auto& deal : call.dealer().deal(hosts.size(), 0)) {
-            std::vector<int> values;
-            for (std::uint32_t i = 0; i < deal.shards.count; ++i)
-                values.push_back(deal.to.place.host == liar ? 99 : static_cast<int>(deal.shards.first + i));
-            call.answer(deal.id, results(values), 0);
-        }
-        all_there = call.all_there(false);
-    }
-    EXPECT_TRUE(all_there) << "it waits for ever";
-    call.complete_from_shards();
-    return {call.lie(), call.result()};
-}
-
-TEST(ServiceCall, FindsOutWhoseShardsAreFalse) {
-    const auto [lie, result] = with_liar("b", {"a", "b", "c"});
-    ASSERT_TRUE(lie);
-    EXPECT_EQ(lie->host, "b");
-    EXPECT_THAT(lie->why, testing::HasSubstr("shard"));
-    EXPECT_EQ(with_liar("", {"a", "b", "c"}).first, std::nullopt);
-    EXPECT_EQ(with_liar("", {"a"}).first, std::nullopt) << "nobody else can be asked";
-    const auto undecided = with_liar("b", {"a", "b"}).first;
-    ASSERT_TRUE(undecided);
-    EXPECT_EQ(undecided->host, "") << "one against one";
-}
-
-TEST(ServiceCall, AsksThoseWhoJoinLaterWhomToBelieve) {
-    ServiceCall call({StepReport::Kind::map, 0, 1}, false);
-    call.verify({1'000'000, 1});
-    const auto answer_from = [&](const std::string& host, int value) {
-        call.join({{host, 0}, 0}, 1, 0);
-        const auto deals = call.dealer().deal(1, 0);
-        ASSERT_EQ(deals.size(), 1u);
-        EXPECT_EQ(deals.front().to.place.host, host);
-        call.answer(deals.front().id, results({value}), 0);
-    };
-    answer_from("a", 99);
-    EXPECT_FALSE(call.all_there(true));
-    answer_from("b", 5);
-    EXPECT_FALSE(call.all_there(true));
-    EXPECT_FALSE(call.lie()) << "one against one, so far";
-    answer_from("c", 5);
-    EXPECT_TRUE(call.all_there(false));
-    ASSERT_TRUE(call.lie());
-    EXPECT_EQ(call.lie()->host, "a");
-}
-
-TEST(ServiceCall, DropsWhatWasComputedBeforeItBeganAgain) {
-    ServiceCall call({StepReport::Kind::map, 0, 1}, false);
-    const auto before = Worker(call)[0];
+TEST(ServiceCall, TakesAllShardsOnceMoreWhenItBeginsAgain) {
+    ServiceCall call({StepReport::Kind::map, 0, 2}, false);
+    call.take(0, results({7}));
     call.begin_again();
-    Worker worker(call);
-    EXPECT_NE(worker[0], before);
-    EXPECT_FALSE(call.answer(before, results({7}), 0));
-    EXPECT_TRUE(call.answer(worker[0], results({1}), 0));
+    EXPECT_EQ(call.missing(), 2u);
+    call.take(0, results({1, 2}));
+    call.complete_from_shards();
+    EXPECT_THAT(Mapped<std::uint8_t>(call.result()).all(), testing::ElementsAre(1, 2));
 }
 
 TEST(ServiceCalls, NamesANodeThatDoesNotPrepareAlikeEverywhere) {
@@ -163,10 +86,10 @@ std::vector<int> values(const Bytes& result) {
 
 TEST(ServiceCall, GivesEachSectorItsOwnPartInTheOrderOfShards) {
     ServiceCall call({StepReport::Kind::sectors, 0, 2}, false, 2);
-    Worker worker(call);
-    EXPECT_THROW(call.answer(worker[0], done({results({})}), 0), Error) << "of no sector";
-    EXPECT_FALSE(call.answer(worker[0], done({two_lists(1, 2)}), 0));
-    EXPECT_TRUE(call.answer(worker[1], done({two_lists(3, 4)}), 0));
+    EXPECT_THROW(call.check(1, done({results({})})), Error) << "of no sector";
+    EXPECT_NO_THROW(call.check(1, done({two_lists(1, 2)})));
+    call.take(0, done({two_lists(1, 2)}));
+    call.take(1, done({two_lists(3, 4)}));
     call.complete_from_shards();
     EXPECT_EQ(values(call.result(0)), (std::vector{1, 3}));
     EXPECT_EQ(values(call.result(1)), (std::vector{2, 4}));
@@ -198,12 +121,10 @@ protected:
     void do_all() {
         auto& call = calls->reported(1, at);
         EXPECT_EQ(&call, &calls->reported(2, at)) << "their calls are the same";
-        Worker worker(call);
         for (int shard = 0; shard < 3; ++shard)
-            if (call.answer(worker[static_cast<std::uint32_t>(shard)], done({two_lists(shard, 10 + shard)}), 0)) {
-                call.complete_from_shards();
-                calls->keep(0, 0);
-            }
+            call.take(static_cast<std::uint32_t>(shard), done({two_lists(shard, 10 + shard)}));
+        call.complete_from_shards();
+        calls->keep(0, 0);
     }
     const StepReport at{StepReport::Kind::sectors, 0, 3};
     Graph graph;
@@ -234,8 +155,7 @@ TEST_F(SectorCalls, ComputeAgainWhatTheDiskHasLostOrSpoiled) {
 TEST_F(SectorCalls, StayInMemoryWhereNothingElseKeepsThem) {
     ServiceCalls alone(graph, "", nullptr);
     auto& call = alone.reported(1, at);
-    Worker worker(call);
-    for (std::uint32_t shard = 0; shard < 3; ++shard) call.answer(worker[shard], done({two_lists(1, 2)}), 0);
+    for (std::uint32_t shard = 0; shard < 3; ++shard) call.take(shard, done({two_lists(1, 2)}));
     call.complete_from_shards();
     alone.all_have(0, 0);
     EXPECT_NE(alone.result(2, 0), nullptr);

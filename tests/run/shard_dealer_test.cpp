@@ -1,75 +1,124 @@
 #include "core/run/master/shard_dealer.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include <algorithm>
+#include <deque>
 #include <map>
-#include <queue>
-#include <random>
+#include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "core/network/light/mapped.hpp"
+#include "tests/support/fake_channel.hpp"
 
 namespace lightnet::shard_dealer_test {
 namespace {
 
+// Shards that went together.
+struct Shards {
+    std::uint32_t first = 0, count = 0;
+    friend bool operator==(const Shards&, const Shards&) = default;
+};
 constexpr Shards only(std::uint32_t shard) { return {shard, 1}; }
+
+// The results of so many shards, which are one byte each.
+Bytes results(std::uint32_t count, int value = 0) {
+    return join_shards(
+        std::vector<std::vector<std::byte>>(count, std::vector<std::byte>(1, static_cast<std::byte>(value))));
+}
 
 // Tells a dealer stories about the places a, b and c, each on a host of its own.
 class ShardDealerTest : public ::testing::Test {
 protected:
-    static NodeCopy copy(const std::string& host) { return {{host, 0}, 0}; }
-    void begin(std::uint32_t count, const std::vector<std::string>& hosts) {
-        dealer.begin(count);
+    void begin(std::uint32_t count, const std::vector<std::string>& hosts, SpotChecks checks = {}) {
+        ShardDealer::Job job;
+        job.node = "caustics";
+        job.count = count;
+        job.checks = checks;
+        job.clock = [this] { return now; };
+        job.done = [this](std::uint32_t first, const Bytes& joined) {
+            for (const auto& result : split_shards(joined)) done[first++].push_back(static_cast<int>(result.front()));
+        };
+        job.at_fault = [this](const Failure& failure) { at_fault.push_back(failure.why); };
+        job.doubt = [this](const Failure& lie) { lies.push_back(lie); };
+        dealer.emplace(std::move(job));
         for (const auto& host : hosts) join(host);
     }
     void join(const std::string& host, std::uint64_t process = 1) {
-        there.insert(copy(host));
-        plan.places.push_back(copy(host).place);
-        dealer.join(copy(host), process, now);
+        auto& channel = channels.emplace_back(2);
+        channel.where = host;
+        channel.number = process;
+        there[host] = &channel;
+        use();
+    }
+    void use() {
+        std::vector<Channel<Step>*> all, leave;
+        for (const auto& [host, channel] : there) {
+            all.push_back(channel);
+            if (leaving.contains(host)) leave.push_back(channel);
+        }
+        dealer->use(all, leave);
     }
     // What each is told to do.
-    std::map<std::string, std::vector<Shards>> deal() {
-        std::map<std::string, std::vector<Shards>> dealt;
-        for (const auto& deal : dealer.deal(there.size(), now)) {
-            dealt[deal.to.place.host].push_back(deal.shards);
-            ids[{deal.to.place.host, deal.shards.first}] = deal.id;
-        }
+    using Dealt = std::map<std::string, std::vector<Shards>>;
+    Dealt deal(bool more = true) {
+        dealer->deal(there.size(), more);
+        Dealt dealt;
+        for (const auto& [host, channel] : there)
+            for (; !channel->sent.empty(); channel->sent.pop_front()) {
+                const auto& bundle = channel->sent.front();
+                const Step& step = bundle.questions->front();
+                dealt[host].push_back({step.first, step.count});
+                asked[{host, step.first}] = bundle;
+            }
         return dealt;
     }
-    bool answer(const std::string& host, std::uint32_t first, std::uint32_t count = 1) {
-        return dealer.answered(ids.at({host, first}), count, now);
+    void answer(const std::string& host, std::uint32_t first, std::uint32_t count = 1, int value = 0) {
+        const auto& bundle = asked.at({host, first});
+        bundle.owner->answered(bundle, results(count, value));
+    }
+    void fail(const std::string& host, std::uint32_t first) {
+        const auto& bundle = asked.at({host, first});
+        bundle.owner->failed(bundle, {"on " + host + ": no memory", host});
     }
     void lose(const std::string& host) {
-        there.erase(copy(host));
-        std::erase(plan.places, copy(host).place);
-        dealer.keep(plan, there, now);
+        there.erase(host);
+        use();
     }
-    using Dealt = std::map<std::string, std::vector<Shards>>;
+    std::set<std::uint32_t> counted() const {
+        std::set<std::uint32_t> shards;
+        for (const auto& [shard, values] : done) shards.insert(shard);
+        return shards;
+    }
 
-    ShardDealer dealer;
-    Plan plan;
-    std::set<NodeCopy> there;
-    std::map<std::pair<std::string, std::uint32_t>, ShardDealer::CopyId> ids;
     double now = 0;
+    std::deque<test::FakeChannel<Step>> channels;
+    std::map<std::string, test::FakeChannel<Step>*> there;
+    std::set<std::string> leaving;
+    std::map<std::pair<std::string, std::uint32_t>, Bundle<Step>> asked;
+    std::map<std::uint32_t, std::vector<int>> done;  // values that counted, by shard
+    std::vector<std::string> at_fault;
+    std::vector<Failure> lies;
+    std::optional<ShardDealer> dealer;
 };
 
 TEST_F(ShardDealerTest, GivesEachShardOnceAndTheLastOnesToThoseWhoAreIdle) {
     begin(5, {"a", "b"});
     EXPECT_EQ(deal(), (Dealt{{"a", {only(0), only(2)}}, {"b", {only(1)}}})) << "two are left, for who is idle first";
     now = 1;
-    EXPECT_TRUE(answer("a", 0));
+    answer("a", 0);
     EXPECT_EQ(deal(), Dealt{}) << "it still has one";
-    EXPECT_TRUE(answer("b", 1));
+    answer("b", 1);
     EXPECT_EQ(deal(), (Dealt{{"b", {only(3)}}}));
     now = 2;
-    EXPECT_TRUE(answer("a", 2));
+    answer("a", 2);
     EXPECT_EQ(deal(), (Dealt{{"a", {only(4)}}}));
-    EXPECT_TRUE(answer("b", 3));
+    answer("b", 3);
     EXPECT_EQ(deal(), Dealt{}) << "nobody is late";
     now = 2.5;
     EXPECT_EQ(deal(), Dealt{});
+    EXPECT_EQ(dealer->missing(), 1u);
 }
 
 TEST_F(ShardDealerTest, GivesWhatSomebodyIsLateWithToWhoIsIdle) {
@@ -81,8 +130,9 @@ TEST_F(ShardDealerTest, GivesWhatSomebodyIsLateWithToWhoIsIdle) {
     EXPECT_EQ(deal(), Dealt{}) << "it was to take as long as the other one, after that";
     now = 0.45;
     EXPECT_EQ(deal(), (Dealt{{"a", {only(1)}}}));
-    EXPECT_TRUE(answer("a", 1));
-    EXPECT_FALSE(answer("b", 1)) << "the first answer counts";
+    answer("a", 1, 1, 7);
+    answer("b", 1, 1, 8);
+    EXPECT_THAT(done[1], testing::ElementsAre(7)) << "the first answer counts";
 }
 
 TEST_F(ShardDealerTest, GivesOutAgainWhatALostPlaceHad) {
@@ -91,15 +141,17 @@ TEST_F(ShardDealerTest, GivesOutAgainWhatALostPlaceHad) {
     lose("b");
     answer("a", 0);
     EXPECT_EQ(deal(), (Dealt{{"a", {only(1)}}}));
-    EXPECT_FALSE(answer("b", 1));
+    answer("b", 1);
+    EXPECT_EQ(dealer->missing(), 1u);
 }
 
 TEST_F(ShardDealerTest, AsksNobodyWhoWasToldToStop) {
     begin(6, {"a", "b"});
     deal();
-    there.erase(copy("b"));
-    dealer.keep(plan, there, now);  // the place is there
-    EXPECT_TRUE(answer("b", 1)) << "it answers what it has";
+    leaving.insert("b");
+    use();
+    answer("b", 1);
+    EXPECT_TRUE(counted().contains(1)) << "it answers what it has";
     answer("a", 0), answer("a", 2);
     const auto more = deal();
     EXPECT_TRUE(more.contains("a"));
@@ -112,7 +164,8 @@ TEST_F(ShardDealerTest, GivesSeveralTogetherWhileThereAreManyAndTheRestOfThemToO
     EXPECT_EQ(first.at("a").front(), (Shards{0, 3}));
     EXPECT_EQ(first.at("b").front(), (Shards{3, 2}));
     now = 1;
-    EXPECT_TRUE(answer("b", 3, 1)) << "it did one of them";
+    answer("b", 3, 1);
+    EXPECT_EQ(counted(), (std::set<std::uint32_t>{3})) << "it did one of them";
     const auto more = deal();
     ASSERT_TRUE(more.contains("b"));
     EXPECT_EQ(more.at("b").front(), only(4));
@@ -122,189 +175,132 @@ TEST_F(ShardDealerTest, AsksSomebodyElseWhereOneFailed) {
     begin(1, {"a", "b"});
     const auto first = deal();
     const std::string sick = first.begin()->first, healthy = sick == "a" ? "b" : "a";
-    EXPECT_TRUE(dealer.failed(ids.at({sick, 0}), now));
+    fail(sick, 0);
+    EXPECT_THAT(at_fault, testing::ElementsAre("on " + sick + ": no memory"));
     EXPECT_EQ(deal(), (Dealt{{healthy, {only(0)}}}));
-    EXPECT_TRUE(answer(healthy, 0));
-    EXPECT_FALSE(dealer.failed(ids.at({sick, 0}), now)) << "it came late";
+    answer(healthy, 0);
+    EXPECT_EQ(dealer->missing(), 0u);
+    fail(sick, 0);
+    EXPECT_EQ(at_fault.size(), 1u) << "it came late";
+    EXPECT_FALSE(dealer->error());
+}
+
+TEST_F(ShardDealerTest, EndsWithWhatASecondHostCannotDoEither) {
+    begin(1, {"a", "b"});
+    const auto first = deal();
+    const std::string sick = first.begin()->first, too = sick == "a" ? "b" : "a";
+    fail(sick, 0);
+    deal();
+    fail(too, 0);
+    ASSERT_TRUE(dealer->error());
+    EXPECT_EQ(dealer->error()->what(), "on " + too + ": no memory");
 }
 
 TEST_F(ShardDealerTest, KeepsWhatFailedForThoseWhoComeLater) {
     begin(1, {"a"});
     deal();
-    EXPECT_TRUE(dealer.failed(ids.at({"a", 0}), now));
+    fail("a", 0);
     lose("a");
     join("b");
     EXPECT_EQ(deal(), (Dealt{{"b", {only(0)}}}));
 }
 
+TEST_F(ShardDealerTest, EndsWhereNobodyElseWillCome) {
+    begin(1, {"a"});
+    deal(false);
+    fail("a", 0);
+    ASSERT_TRUE(dealer->error());
+    EXPECT_EQ(dealer->error()->what(), std::string("on a: no memory"));
+}
+
+TEST_F(ShardDealerTest, TakesNoAnswerThatCannotBeOne) {
+    ShardDealer::Job job;
+    job.node = "caustics";
+    job.count = 1;
+    job.check = [](std::uint32_t, const Bytes&) { throw Error("results of preparing", "they are damaged"); };
+    job.at_fault = [this](const Failure& failure) { at_fault.push_back(failure.host + "; " + failure.why); };
+    dealer.emplace(std::move(job));
+    join("a"), join("b");
+    deal();
+    answer("a", 0);
+    EXPECT_THAT(at_fault, testing::ElementsAre("a; 'caustics' on a: results of preparing: they are damaged"));
+    EXPECT_EQ(dealer->missing(), 1u);
+}
+
 TEST_F(ShardDealerTest, NamesTheShardThatKillsHostsThoughItWentWithOthers) {
     begin(12, {"a"});
     constexpr std::uint32_t poison = 4;
-    std::set<std::uint32_t> done;
-    for (std::uint64_t process = 2; process < 200 && !dealer.convicted(); ++process) {
+    for (std::uint64_t process = 2; process < 200 && !dealer->error(); ++process) {
         bool died = false;
         for (const auto& [host, all] : deal())
             for (const auto& some : all) {
                 died = died || (some.first <= poison && poison < some.first + some.count);
-                if (died) continue;
-                EXPECT_TRUE(answer(host, some.first, some.count));
-                for (auto shard = some.first; shard < some.first + some.count; ++shard) done.insert(shard);
+                if (!died) answer(host, some.first, some.count);
             }
         if (!died) continue;
         lose("a");
         join("a", process);
     }
-    ASSERT_TRUE(dealer.convicted());
-    EXPECT_EQ(dealer.convicted()->shard, poison);
-    EXPECT_EQ(dealer.convicted()->hosts, (std::vector<std::string>{"a", "a", "a"}));
-    EXPECT_FALSE(done.contains(poison));
+    ASSERT_TRUE(dealer->error());
+    EXPECT_STREQ(dealer->error()->what(),
+                 "caustics: shard 4 of what a node prepares is set aside: hosts died of it, with nothing else to do: "
+                 "a, a, a");
+    EXPECT_FALSE(counted().contains(poison));
 }
 
-TEST_F(ShardDealerTest, ForgetsTheRoundBeforeWhenItBeginsAgain) {
-    begin(1, {"a"});
-    deal();
-    const auto before = ids.at({"a", 0});
-    dealer.begin(1);
-    EXPECT_EQ(deal(), Dealt{}) << "nobody has joined";
-    dealer.join(copy("a"), 1, now);
-    deal();
-    EXPECT_FALSE(dealer.answered(before, 1, now));
-    EXPECT_TRUE(answer("a", 0));
-}
+// ---- what is checked ----
 
-// ---- whole calls, on a clock of their own ----
-
-// A place that does shards as Preparer does: several, until a twentieth of a second is over.
-struct SimulatedPlace {
-    double slowness = 1;
-    double dies = 1e9, hangs = 1e9;  // when
-};
-
-struct Story {
-    double seconds = 0;           // until the last result was there
-    double work = 0;              // that had to be done, in seconds of a place of slowness 1
-    std::size_t done = 0;         // shards that places did, twice or not
-    std::vector<int> answered{};  // by shard: how often its answer counted
-};
-
-Story play(const std::vector<double>& costs, const std::vector<SimulatedPlace>& places) {
-    constexpr double delay = 0.0005, lease = 1.5;
-    Story story;
-    story.answered.resize(costs.size());
-    for (const double cost : costs) story.work += cost;
-    ShardDealer dealer;
-    dealer.begin(static_cast<std::uint32_t>(costs.size()));
-    Plan plan;
-    std::set<NodeCopy> there;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        there.insert({{std::to_string(i), 0}, 0});
-        plan.places.push_back({std::to_string(i), 0});
-        dealer.join({{std::to_string(i), 0}, 0}, 1, 0);
-    }
-    struct Event {
-        double time;
-        ShardDealer::CopyId id;  // 0: somebody looks around
-        Shards shards;
-        std::size_t place;
-        bool operator<(const Event& other) const { return time > other.time; }
-    };
-    std::priority_queue<Event> events;
-    events.push({0, 0, {}, 0});
-    std::vector<double> busy(places.size(), 0);
-    std::vector<bool> lost(places.size(), false);
-    for (std::size_t missing = costs.size(); missing > 0;) {
-        const Event event = events.top();
-        events.pop();
-        const double now = event.time;
-        if (now > 1e5) throw std::runtime_error("nothing comes to an end");
-        if (event.id == 0) {
-            events.push({now + 0.02, 0, {}, 0});
-            for (std::size_t i = 0; i < places.size(); ++i)
-                if (!lost[i] && now > places[i].dies + lease) {
-                    lost[i] = true;
-                    there.erase({{std::to_string(i), 0}, 0});
-                    std::erase(plan.places, PlaceAt{std::to_string(i), 0});
-                    dealer.keep(plan, there, now);
+class CheckedShards : public ShardDealerTest {
+protected:
+    // One host does all its shards falsely. Who is named.
+    std::vector<std::string> with_liar(const std::string& liar, const std::vector<std::string>& hosts) {
+        constexpr std::uint32_t count = 12;
+        there.clear(), done.clear(), lies.clear();
+        begin(count, hosts, {1'000'000, 1});
+        for (int turn = 0; turn < 100 && dealer->missing() > 0; ++turn)
+            for (const auto& [host, all] : deal(false))
+                for (const auto& some : all) {
+                    EXPECT_EQ(some.count, 1u) << "two can only be compared where both did all";
+                    answer(host, some.first, some.count, host == liar ? 99 : static_cast<int>(some.first));
                 }
-        } else if (const auto shards = dealer.shards_of(event.id); shards) {
-            if (dealer.answered(event.id, event.shards.count, now)) {
-                missing -= event.shards.count;
-                for (std::uint32_t i = 0; i < event.shards.count; ++i) ++story.answered[event.shards.first + i];
-            }
-        }
-        story.seconds = now;
-        for (const auto& deal : dealer.deal(there.size(), now)) {
-            const auto at = static_cast<std::size_t>(std::stoul(deal.to.place.host));
-            const double begun = std::max(busy[at], now + delay);
-            double end = begun;
-            std::uint32_t count = 0;
-            while (count < deal.shards.count && (count == 0 || end - begun < 0.05))
-                end += costs[deal.shards.first + count++] * places[at].slowness;
-            busy[at] = end;
-            story.done += count;
-            if (end < std::min(places[at].dies, places[at].hangs))
-                events.push({end + delay, deal.id, {deal.shards.first, count}, at});
-        }
+        EXPECT_EQ(dealer->missing(), 0u) << "it waits for ever";
+        std::vector<std::string> names;
+        for (const auto& lie : lies) names.push_back(lie.host);
+        return names;
     }
-    return story;
+};
+
+TEST_F(CheckedShards, ShowWhoseAreFalse) {
+    const auto named = with_liar("b", {"a", "b", "c"});
+    ASSERT_FALSE(named.empty());
+    EXPECT_THAT(named, testing::Each("b"));
+    EXPECT_THAT(lies.front().why, testing::HasSubstr("shard"));
+    for (const auto& [shard, values] : done) EXPECT_THAT(values, testing::ElementsAre(static_cast<int>(shard)));
+    EXPECT_THAT(with_liar("nobody", {"a", "b", "c"}), testing::IsEmpty());
+    EXPECT_THAT(with_liar("nobody", {"a"}), testing::IsEmpty()) << "nobody else can be asked";
+    const auto undecided = with_liar("b", {"a", "b"});
+    ASSERT_FALSE(undecided.empty());
+    EXPECT_THAT(undecided, testing::Each("")) << "one against one";
+    EXPECT_THAT(with_liar("nobody", {"", "b"}), testing::IsEmpty());
+    EXPECT_THAT(with_liar("b", {"", "b"}), testing::Each("b")) << "this process is believed";
 }
 
-// Some cost twice as much as others.
-std::vector<double> uneven(std::size_t count, double mean, std::uint64_t seed) {
-    std::mt19937_64 random(seed);
-    std::vector<double> costs(count);
-    for (auto& cost : costs) cost = mean * (2.0 / 3 + 2.0 / 3 * double(random() >> 11) * 0x1p-53);
-    return costs;
-}
-
-void expect_each_once(const Story& story) {
-    for (const int times : story.answered) EXPECT_EQ(times, 1);
-}
-
-TEST(SimulatedShards, AreHardlyEverDoneTwiceAndKeepAllPlacesBusy) {
-    std::size_t done = 0, shards = 0;
-    double efficiency = 0;
-    constexpr int seeds = 100;
-    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-        const auto costs = uneven(200, seed % 2 ? 0.002 : 0.05, seed);
-        const auto story = play(costs, std::vector<SimulatedPlace>(2 + seed % 3));
-        expect_each_once(story);
-        done += story.done, shards += costs.size();
-        efficiency += story.work / double(2 + seed % 3) / story.seconds / seeds;
+TEST_F(CheckedShards, AreShownToThoseWhoJoinLater) {
+    begin(1, {"a"}, {1'000'000, 1});
+    deal();
+    answer("a", 0, 1, 99);
+    EXPECT_EQ(deal(), Dealt{});
+    EXPECT_EQ(dealer->missing(), 1u) << "others will come";
+    for (const std::string host : {"b", "c"}) {
+        EXPECT_THAT(lies, testing::IsEmpty()) << "one against one, so far";
+        join(host);
+        EXPECT_EQ(deal(), (Dealt{{host, {only(0)}}}));
+        answer(host, 0, 1, 5);
     }
-    EXPECT_LE(double(done), 1.01 * double(shards));
-    EXPECT_GT(efficiency, 0.97);
-}
-
-TEST(SimulatedShards, WaitForNoPlaceThatIsSlow) {
-    for (std::uint64_t seed = 0; seed < 50; ++seed) {
-        const auto costs = uneven(100, 0.05, seed);
-        const auto story = play(costs, {{1}, {1}, {1}, {20}});
-        expect_each_once(story);
-        EXPECT_LT(story.seconds, 1.25 * story.work / 3) << "seed " << seed << ": slower than without the slow one";
-    }
-}
-
-TEST(SimulatedShards, WaitForADeadPlaceNoLongerThanItTakesToMissIt) {
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        const auto costs = uneven(100, 0.05, seed);
-        SimulatedPlace dying;
-        dying.dies = 0.02 * double(seed);
-        const auto story = play(costs, {{1}, dying, {1}});
-        expect_each_once(story);
-        EXPECT_LT(story.seconds, 2 + story.work / 2) << "seed " << seed;
-    }
-}
-
-TEST(SimulatedShards, AreDoneElsewhereWhenTheirPlaceHangsAndIsNeverMissed) {
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        const auto costs = uneven(100, 0.05, seed);
-        SimulatedPlace hanging;
-        hanging.hangs = 0.02 * double(seed + 10);
-        const auto story = play(costs, {{1}, hanging, {1}});
-        expect_each_once(story);
-        EXPECT_LT(story.seconds, 1 + story.work / 2) << "seed " << seed;
-    }
+    EXPECT_EQ(dealer->missing(), 0u);
+    ASSERT_EQ(lies.size(), 1u);
+    EXPECT_EQ(lies.front().host, "a");
+    EXPECT_THAT(done[0], testing::ElementsAre(5));
 }
 
 }  // namespace

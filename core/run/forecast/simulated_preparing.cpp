@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <deque>
+#include <functional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
+#include "core/network/light/mapped.hpp"
 #include "core/run/forecast/event_queue.hpp"
 #include "core/run/master/shard_dealer.hpp"
 
@@ -12,6 +18,28 @@ namespace lightnet {
 namespace {
 
 constexpr double shards_worth_the_way = 0.05;  // seconds of shards that go together, see Preparer
+
+/// The way to a copy that does shards.
+class SimulatedCopy final : public Channel<Step> {
+public:
+    using Send = std::function<void(const SimulatedCopy&, const Bundle<Step>&)>;
+    SimulatedCopy(PlaceAt at, Send send) : at_(std::move(at)), send_(std::move(send)) {}
+
+    const PlaceAt& at() const { return at_; }
+    bool send(const Bundle<Step>& bundle) override {
+        send_(*this, bundle);
+        return true;
+    }
+    Credit credit() const override { return ShardDealer::credit_of_each; }
+    bool within_process() const override { return at_.host.empty(); }
+    std::uint64_t pulse() const override { return ++pulse_; }
+    std::string host() const override { return at_.host; }
+
+private:
+    PlaceAt at_;
+    Send send_;
+    mutable std::uint64_t pulse_ = 0;  // it never hangs
+};
 
 /// Prepares one node after the other.
 class Preparation {
@@ -77,48 +105,45 @@ private:
     // When the last shard is there.
     double do_shards(std::size_t node, const PreparingCost& cost) {
         EventQueue events;
-        ShardDealer dealer;
-        dealer.begin(cost.shards);
-        std::size_t missing = cost.shards;
-        const double each = cost.shard_seconds / cost.shards;
-        const auto copies = plan_.places_of[node].size();
-        std::uint64_t pulse = 0;
-        const auto deal = [&](const auto& again) -> void {
-            dealer.feel_pulses([&](const std::string&) { return ++pulse; }, events.now());
-            for (const auto& dealt : dealer.deal(copies, events.now()))
-                events.at(events.now(), [&, dealt, again] { work(events, dealer, missing, each, dealt, again); });
+        ShardDealer::Job job;
+        job.count = cost.shards;
+        job.clock = [&events] { return events.now(); };
+        ShardDealer dealer(std::move(job));
+        std::deque<SimulatedCopy> copies;
+        std::vector<Channel<Step>*> there;
+        const auto deal = [&, all = plan_.places_of[node].size()] { dealer.deal(all, false); };
+        const auto send = [&](const SimulatedCopy& copy, const Bundle<Step>& bundle) {
+            events.at(events.now(), [&, bundle] { work(events, cost, copy, bundle, deal); });
         };
         for (const auto place : plan_.places_of[node]) {
             const auto& at = plan_.places[place];
             events.at(result_.ready.at(at.host) + way_to(at.host), [&, at] {
-                dealer.join({at, node}, 0, events.now());
-                deal(deal);
+                there.push_back(&copies.emplace_back(at, send));
+                dealer.use(there);
+                deal();
             });
         }
-        while (missing > 0 && events.next() < EventQueue::never) events.step();
-        if (missing > 0) throw Error("what '" + costs_.nodes[node].name + "' prepares comes to no end");
+        while (dealer.missing() > 0 && events.next() < EventQueue::never) events.step();
+        if (dealer.missing() > 0) throw Error("what '" + costs_.nodes[node].name + "' prepares comes to no end");
         return events.now();
     }
 
     // A place does what it is asked, or as much of it as takes little time.
-    template <class Again>
-    void work(EventQueue& events, ShardDealer& dealer, std::size_t& missing, double each,
-              const ShardDealer::Deal& dealt, const Again& again) {
-        const auto& host = dealt.to.place.host;
-        const double seconds = each / facts(host).speed;
+    void work(EventQueue& events, const PreparingCost& cost, const SimulatedCopy& copy, const Bundle<Step>& bundle,
+              const std::function<void()>& deal) {
+        const auto& host = copy.at().host;
+        const double seconds = cost.shard_seconds / cost.shards / facts(host).speed;
         const auto most =
             static_cast<std::uint32_t>(std::min(1e9, 1 + std::floor(shards_worth_the_way / std::max(seconds, 1e-9))));
-        const auto done = std::min(dealt.shards.count, most);
-        auto& free = free_[dealt.to.place];
+        const auto done = std::min(bundle.questions->front().count, most);
+        auto& free = free_[copy.at()];
         free = std::max(free, events.now() + way_to(host)) + done * seconds;
-        const auto& cost = costs_.nodes[dealt.to.node].preparing;
         const double bytes = cost.bytes * done / cost.shards;
-        events.at(free + way_to(host), [&, id = dealt.id, done, bytes, own = host.empty(), again] {
-            const auto answer = [&, id, done, again] {
-                if (dealer.answered(id, done, events.now())) missing -= done;
-                again(again);
-            };
-            events.at(own ? events.now() : in_.pass(events.now(), bytes), answer);
+        events.at(free + way_to(host), [this, &events, bundle, bytes, done, own = host.empty(), deal] {
+            events.at(own ? events.now() : in_.pass(events.now(), bytes), [bundle, done, deal] {
+                bundle.owner->answered(bundle, join_shards(std::vector<std::vector<std::byte>>(done)));
+                deal();
+            });
         });
     }
 

@@ -10,7 +10,7 @@
 #include "core/base/bytes.hpp"
 #include "core/base/query.hpp"
 #include "core/run/master/master_renderer.hpp"
-#include "core/run/master/shard_dealer.hpp"
+#include "core/run/master/node_copy.hpp"
 
 namespace lightnet {
 

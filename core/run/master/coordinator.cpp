@@ -9,7 +9,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::uint32_t own_channel = 0xffffffff;  // no master's: see Epoch::most_channels
+constexpr std::uint32_t own_channel = Epoch::own(Epoch::most_channels - 1);
 
 }  // namespace
 
@@ -17,13 +17,15 @@ Coordinator::Coordinator(Options options, Carrier& carrier)
     : options_(std::move(options)),
       carrier_(carrier),
       calls_(*options_.graph, options_.made_from, options_.cache, renewed_nodes(*options_.graph, *options_.registry)),
+      shards_({options_.run, options_.verify,
+               [this](std::size_t node, Failure lie) { doubt_shards(node, std::move(lie)); }},
+              carrier_),
       order_(preparing_nodes(*options_.graph, *options_.registry)),
       stages_(stages_of(order_, *options_.graph, *options_.registry)) {
     const auto& nodes = options_.graph->nodes;
     if (std::any_of(nodes.begin(), nodes.end(),
                     [&](const Node& node) { return options_.registry->find(node.kind)->run.locks; }))
         locks_.emplace([this](const PlaceAt& place, const Step& step) { return send({{place, 0}, 0, step}); });
-    calls_.verify(options_.verify);
     plans_.proposed.places_of.resize(options_.graph->nodes.size());
     plans_.in_force = plans_.proposed;
 }
@@ -130,7 +132,9 @@ void Coordinator::lead(const NodeCopy& copy, std::size_t position) {
         auto& call = calls_.reported(copy.node, follower.at);
         const auto result = calls_.result(copy.node, follower.at.call);
         if (!result) {
-            if (call.shared_out()) call.join(copy, plans_.proposed.process_of(copy.place.host), steady_seconds());
+            if (call.shared_out())
+                shards_.join(copy, {order_[position], follower.at.call}, call, name_of(position),
+                             plans_.proposed.process_of(copy.place.host));
             return;
         }
         const Hash& name = call.name(calls_.part_of(copy.node, call));
@@ -141,7 +145,7 @@ void Coordinator::lead(const NodeCopy& copy, std::size_t position) {
 }
 
 bool Coordinator::send(const Sent& sent, const Bytes& data) {
-    const auto& [to, position, step, shards] = sent;
+    const auto& [to, position, step] = sent;
     Message message;
     message.run = options_.run;
     message.channel = own_channel;
@@ -162,9 +166,6 @@ void Coordinator::take(Message message) {
     if (found == sent_.end()) return;  // of a place that was lost
     const Sent sent = found->second;
     sent_.erase(found);
-    const bool shards = sent.step.kind == Step::Kind::shards;
-    if (shards && !calls_.of(order_[sent.position], sent.step.call).dealer().shards_of(sent.shards))
-        return;  // another place was first
     if (sent.step.kind == Step::Kind::leave) return;
     if (message.type == Message::Type::failure) return failed(sent, message.trouble.why);
     if (sent.step.kind == Step::Kind::attend) {
@@ -173,8 +174,6 @@ void Coordinator::take(Message message) {
         locks_->attend(plans_.proposed.places);
     } else if (sent.step.kind == Step::Kind::grant) {
         return;
-    } else if (shards) {
-        shards_done(sent, message.data);
     } else if (sent.step.kind == Step::Kind::collect) {
         noted(sent, message.data);
     } else {
@@ -184,12 +183,9 @@ void Coordinator::take(Message message) {
 
 // A host that can't do its part of preparing is left out; what a second one can't do either is the run's own fault.
 void Coordinator::failed(const Sent& sent, const std::string& why) {
-    const auto& [to, position, step, shards] = sent;
-    if (step.kind == Step::Kind::shards &&
-        !calls_.of(order_[position], step.call).dealer().failed(shards, steady_seconds()))
-        return;  // another place was first
+    const auto& [to, position, step] = sent;
     const auto& host = to.place.host;
-    auto& hosts = failed_at_[{position, step.kind, step.call, step.first}];
+    auto& hosts = failed_at_[{position, step.kind, step.call}];
     hosts.insert(host);
     const auto all = copies(position);
     const bool others =
@@ -281,6 +277,8 @@ std::optional<Message> Coordinator::receive() {
             if (message->plan) propose(*message->plan);
         } else if (message->channel == own_channel) {
             take(std::move(*message));
+        } else if (Epoch::is_own(message->channel)) {
+            if (shards_.arrived(*message)) advance();
         } else if (epoch_.has(message->channel)) {
             message->channel = Epoch::channel_of(message->channel);
             return message;

@@ -21,6 +21,7 @@
 #include "core/run/master/epoch.hpp"
 #include "core/run/master/lock_client.hpp"
 #include "core/run/master/service_calls.hpp"
+#include "core/run/master/shard_work.hpp"
 #include "core/run/message/carrier.hpp"
 
 namespace lightnet {
@@ -105,7 +106,6 @@ private:
         NodeCopy to;
         std::size_t position;
         Step step;
-        ShardDealer::CopyId shards = 0;  // as they were dealt out
     };
     bool is_renewed(std::size_t position) const { return calls_.is_renewed(order_[position]); }
     std::vector<std::size_t> nodes_at(std::size_t position) const;
@@ -119,7 +119,8 @@ private:
     void deal(std::size_t position);
     void keep_dealing();
     bool end_calls();
-    bool will_join(const NodeCopy& copy, std::uint32_t number, ServiceCall& call) const;
+    void doubt_shards(std::size_t node, Failure lie);
+    bool will_join(const NodeCopy& copy, const ShardWork::Call& call) const;
     void collect();
     std::set<NodeCopy> waiting_to_rehearse();
     bool is_time_to_rehearse(const std::set<NodeCopy>& waiting);
@@ -131,7 +132,6 @@ private:
     void reported(const Sent& sent, const Bytes& data);
     void let_go_of_taken(std::size_t position, std::uint32_t before);
     void say(std::size_t node, std::string_view lines);
-    void shards_done(const Sent& sent, const Bytes& data);
     void noted(const Sent& sent, const Bytes& data);
     void lose(const std::set<PlaceAt>& gone);
     std::set<NodeCopy> copies_in_force(std::size_t position) const;
@@ -147,6 +147,7 @@ private:
     Options options_;
     Carrier& carrier_;
     ServiceCalls calls_;
+    ShardWork shards_;
     std::vector<std::size_t> order_;  // nodes that prepare; what stands for their sectors is found by nodes_at()
     std::vector<std::size_t> stages_;
     std::uint32_t pass_ = 0;
@@ -155,8 +156,8 @@ private:
     std::deque<Message> arrived_;
     std::map<NodeCopy, Follower> followers_;
     std::map<std::uint64_t, Sent> sent_;
-    using StepKey = std::tuple<std::size_t, Step::Kind, std::uint32_t, std::uint32_t>;  // position, kind, call, shard
-    std::map<StepKey, std::set<std::string>> failed_at_;                                // hosts
+    using StepKey = std::tuple<std::size_t, Step::Kind, std::uint32_t>;  // position, kind, call
+    std::map<StepKey, std::set<std::string>> failed_at_;                 // hosts
     std::uint64_t next_ = 1;
     std::size_t done_ = 0;                           // positions of order_ that can be asked
     std::set<PlaceAt> known_prepared_;               // had all that can be asked, once

@@ -18,7 +18,7 @@ void Coordinator::begin_pass(std::uint32_t pass) {
     for (auto& [copy, follower] : followers_)
         if (calls_.is_renewed(copy.node)) follower.state = Follower::State::idle, follower.at = {};
     for (std::size_t position = first; position < order_.size(); ++position)
-        if (is_renewed(position)) calls_.forget(order_[position]);
+        if (is_renewed(position)) shards_.end_all(order_[position]), calls_.forget(order_[position]);
     known_prepared_.clear();
     end_rehearsal();  // late replies to the master before are no answers to the next
     done_ = std::min(done_, first);

@@ -14,9 +14,8 @@ namespace lightnet {
 class Epoch {
 public:
     static constexpr unsigned channel_bits = 20;  // of a marked channel; the bits above them are the epoch's
-    static constexpr std::uint32_t count = 1u << (32 - channel_bits);
-    static constexpr std::uint32_t most_channels =
-        (1u << channel_bits) - 1;  // one number is left to who asks for itself
+    static constexpr std::uint32_t count = (1u << (32 - channel_bits)) - 1;
+    static constexpr std::uint32_t most_channels = 1u << channel_bits;
 
     /// The number of the epoch, below `count`.
     std::uint32_t number() const { return number_; }
@@ -28,6 +27,9 @@ public:
         return channel | number_ << channel_bits;
     }
     bool has(std::uint32_t marked) const { return marked >> channel_bits == number_; }
+    /// A channel that is no master's, but of who leads them all. Below most_channels.
+    static constexpr std::uint32_t own(std::uint32_t channel) { return channel | count << channel_bits; }
+    static bool is_own(std::uint32_t marked) { return marked >> channel_bits == count; }
     static std::uint32_t channel_of(std::uint32_t marked) { return marked & ((1u << channel_bits) - 1); }
 
 private:

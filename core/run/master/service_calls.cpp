@@ -14,9 +14,7 @@ ServiceCall::ServiceCall(const StepReport& what, bool rehearsed, std::uint32_t p
 
 void ServiceCall::begin_again() {
     names_.clear();
-    votes_.clear();
     if (!shared_out()) return;
-    dealer_.begin(what_.count);
     shards_.assign(what_.count, {});
     answered_.assign(what_.count, false);
     joined_.clear();
@@ -26,60 +24,23 @@ void ServiceCall::begin_again() {
     if (what_.count == 0) complete_from_shards();
 }
 
-bool ServiceCall::answer(ShardDealer::CopyId id, const Bytes& joined, double now) {
-    const auto shards = dealer_.shards_of(id);
-    if (!shards) return false;
-    const bool again = dealer_.is_asked_also(id);
-    const auto host = dealer_.host_of(id).value_or("");
+void ServiceCall::check(std::uint32_t count, const Bytes& joined) const {
     const auto results = split_shards(joined);
-    if (results.empty() || results.size() > shards->count)
+    if (results.empty() || results.size() > count)
         throw Error("results of preparing", "they are not of the shards that were asked for");
     for (const auto& own : results)
         if (what_.kind == StepReport::Kind::sectors && split_shards(own).size() != parts())
             throw Error("results of preparing", "they are not for as many sectors as there are");
-    if (!dealer_.answered(id, static_cast<std::uint32_t>(results.size()), now)) return false;
-    if (again) {
-        vote(shards->first, host, results.front(), now);
-        return missing_ == 0;
-    }
+}
+
+void ServiceCall::take(std::uint32_t first, const Bytes& joined) {
+    const auto results = split_shards(joined);
     for (std::uint32_t i = 0; i < results.size(); ++i) {
-        answered_[shards->first + i] = true;
-        shards_[shards->first + i] = {joined, results[i]};
-        if (!host.empty() && checks_.next()) vote(shards->first + i, host, results[i], now);
+        answered_[first + i] = true;
+        shards_[first + i] = {joined, results[i]};
     }
     missing_ -= results.size();
     join_what_is_next();
-    return missing_ == 0;
-}
-
-void ServiceCall::join(const NodeCopy& copy, std::uint64_t process, double now) {
-    if (!dealer_.join(copy, process, now)) return;
-    for (const auto shard : dealer_.take_unasked()) dealer_.ask_also(shard, votes_.at(shard).hosts(), now);
-}
-
-// Places of this process are believed. DECISIONS: two-against-one
-void ServiceCall::vote(std::uint32_t shard, const std::string& host, std::span<const std::byte> result, double now) {
-    auto& votes = votes_.try_emplace(shard, Votes("")).first->second;
-    votes.add(host, content_hash(result));
-    const auto settled = votes.settled();
-    if (!settled) return dealer_.ask_also(shard, votes.hosts(), now);
-    for (const auto& liar : votes.against(*settled))
-        lie_ = Failure{liar + " does not answer as others do: " + votes.names() + " were asked about shard " +
-                           std::to_string(shard) + " of what a node prepares",
-                       liar, true};
-    votes_.erase(shard);
-}
-
-bool ServiceCall::all_there(bool more_to_come) {
-    if (more_to_come) return missing_ == 0 && votes_.empty();
-    for (const auto shard : dealer_.take_unasked()) {
-        const auto votes = votes_.extract(shard);
-        if (!votes.empty() && votes.mapped().size() > 1)
-            lie_ = Failure{votes.mapped().names() + " answer differently, and no other host can be asked about shard " +
-                               std::to_string(shard) + " of what a node prepares",
-                           "", true};
-    }
-    return missing_ == 0 && votes_.empty();
 }
 
 std::vector<std::span<const std::byte>> ServiceCall::parts_of(const Results& shard) const {
@@ -106,7 +67,6 @@ void ServiceCall::complete(const std::vector<Result>& parts) {
     }
     shards_ = {};
     joined_.clear();
-    dealer_.begin(0);
     missing_ = 0;
 }
 
@@ -142,7 +102,6 @@ ServiceCall& ServiceCalls::reported(std::size_t node, const StepReport& at) {
         at.kind == StepReport::Kind::rehearse || (!is_first_call(at.call) && of(whole, at.call - 1).rehearsed());
     auto& call = calls_[{whole, at.call}] =
         ServiceCall(at, rehearsed, at.kind == StepReport::Kind::sectors ? sector->count : 1);
-    if (verify_ > 0) call.verify({verify_, secret_number()});
     auto* const cache = cache_for(whole);
     if (!cache || call.done()) return call;
     std::vector<Result> parts;

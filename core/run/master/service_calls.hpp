@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,11 +13,8 @@
 #include "core/network/graph/layout.hpp"
 #include "core/network/light/mapped.hpp"
 #include "core/run/assembly/prepared.hpp"
-#include "core/run/master/shard_dealer.hpp"
 #include "core/run/message/message.hpp"
 #include "core/run/message/step.hpp"
-#include "core/run/schedule/spot_checks.hpp"
-#include "core/run/schedule/votes.hpp"
 
 namespace lightnet {
 
@@ -37,25 +33,16 @@ public:
     /// Null until it is there, and when it was let go of and nobody else has it.
     Bytes result(std::uint32_t part = 0) const { return kept_[part] ? kept_[part] : lent_[part].lock(); }
     const Hash& name(std::uint32_t part = 0) const { return names_[part]; }
+    /// Shards without results.
     std::size_t missing() const { return missing_; }
     /// Does it take shards?
     bool shared_out() const { return what_.kind == StepReport::Kind::map || what_.kind == StepReport::Kind::sectors; }
 
-    /// Who does which of its shards.
-    ShardDealer& dealer() { return dealer_; }
-    /// The results of the first of the shards that went under this number, or of more of them, by join_shards(); what
-    /// comes late is dropped. True when no shard is missing. Throws Error when they are not what was asked for, or have
-    /// not as many parts as they should.
-    bool answer(ShardDealer::CopyId id, const Bytes& joined, double now);
-    /// A copy waits for the result, and does shards from now on; see ShardDealer::join().
-    void join(const NodeCopy& copy, std::uint64_t process, double now);
-    /// Every shard is there, and whatever was to be checked has been. `more_to_come`: copies that have not joined; what
-    /// nobody else can be asked about waits for them.
-    bool all_there(bool more_to_come);
-    /// Some shards, chosen at random, are asked of a second host as well. Before the first is dealt out.
-    void verify(SpotChecks checks) { checks_ = checks; }
-    /// A host's shard that others do otherwise; see Carrier::doubt(). None: there is none.
-    const std::optional<Failure>& lie() const { return lie_; }
+    /// Throws Error when these are not the results, by join_shards(), of one to `count` shards, each with as many parts
+    /// as it should have.
+    void check(std::uint32_t count, const Bytes& joined) const;
+    /// Checked results of the shard `first` and of those behind it, each once.
+    void take(std::uint32_t first, const Bytes& joined);
     void complete(const Bytes& result) { complete({Result{content_hash(*result), result}}); }
     void complete(const std::vector<Result>& parts);
     void complete_from_shards();
@@ -73,15 +60,13 @@ private:
     };
     std::vector<std::span<const std::byte>> parts_of(const Results& shard) const;
     void join_what_is_next();
-    void vote(std::uint32_t shard, const std::string& host, std::span<const std::byte> result, double now);
 
     StepReport what_;
     bool rehearsed_ = false;
     std::vector<Bytes> kept_ = std::vector<Bytes>(1);  // results, by part
     std::vector<std::weak_ptr<const std::vector<std::byte>>> lent_ =
         std::vector<std::weak_ptr<const std::vector<std::byte>>>(1);
-    std::vector<Hash> names_;  // of all parts, or none
-    ShardDealer dealer_;
+    std::vector<Hash> names_;      // of all parts, or none
     std::vector<Results> shards_;  // that wait for those before them
     std::vector<bool> answered_;
     struct Joined {
@@ -91,9 +76,6 @@ private:
     std::vector<Joined> joined_;  // by part: of shards that came before next_
     std::size_t next_ = 0;
     std::size_t missing_ = 0;
-    SpotChecks checks_;
-    std::map<std::uint32_t, Votes> votes_;  // on shards that more than one host is asked about
-    std::optional<Failure> lie_;
 };
 
 /// All calls of a run, by node and number. The nodes that stand for the sectors of one node make the same calls, which
@@ -103,8 +85,6 @@ public:
     /// `cache` may be null. `renewed`: renewed_nodes(), whose results nobody wants in a later run.
     ServiceCalls(const Graph& graph, std::string made_from, ResultCache* cache, std::vector<bool> renewed = {})
         : graph_(graph), recipes_(graph, std::move(made_from)), cache_(cache), renewed_(std::move(renewed)) {}
-    /// From now on `millionths` of all shards are asked of a second host as well.
-    void verify(std::uint32_t millionths) { verify_ = millionths; }
 
     /// The call that a place reports; begun, or found in the cache, when nobody has reported it before. Throws Error
     /// when another place has reported something else.
@@ -141,7 +121,6 @@ private:
     Recipes recipes_;
     ResultCache* cache_;
     std::vector<bool> renewed_;
-    std::uint32_t verify_ = 0;
     std::map<std::pair<std::size_t, std::uint32_t>, ServiceCall> calls_;
 };
 

@@ -21,6 +21,7 @@ struct Bundle {
     BundleOwner<Question>* owner = nullptr;  // who made it and gets the answers
     std::uint64_t number = 0;                // the owner's own, see Message
     std::uint32_t width = 1;                 // colours per question that are wanted
+    bool checked = false;                    // two hosts are to be asked
 };
 
 /// Makes bundles, and gets each back once: answered, failed, set aside, or returned unanswered.
@@ -28,9 +29,13 @@ template <class Question>
 class BundleOwner {
 public:
     virtual ~BundleOwner() = default;
-    virtual void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) = 0;
+    virtual void answered(const Bundle<Question>& bundle, Answers<Question> answers) = 0;
     virtual void failed(const Bundle<Question>& bundle, const Failure& failure) = 0;
     virtual void returned(Bundle<Question> bundle) = 0;
+    /// Why a host can't have answered so, where that doesn't show by the size. Empty: it can.
+    virtual std::string mistake_in(const Bundle<Question>&, const Answers<Question>&, const std::string& /*host*/) {
+        return {};
+    }
     /// It seems to kill hosts, and is asked no more.
     virtual void set_aside(const Bundle<Question>& bundle, const std::string& why) { failed(bundle, {why, {}}); }
 };

@@ -29,6 +29,11 @@ struct Load {
 template <class Question>
 using Questions = std::shared_ptr<const std::vector<Question>>;
 
+/// What answers a bundle of questions: colours, those of each question side by side; of shards, join_shards() of
+/// theirs.
+template <class Question>
+using Answers = std::conditional_t<std::is_same_v<Question, Step>, Bytes, std::vector<Rgb>>;
+
 /// Why there is no answer.
 struct Failure {
     std::string why;
@@ -88,6 +93,15 @@ inline Message reply_to(Message& ask) {
     return reply;
 }
 
+/// The answers of a reply to such questions. Leaves none there.
+template <class Question>
+Answers<Question> take_answers(Message& reply) {
+    if constexpr (std::is_same_v<Question, Step>)
+        return std::move(reply.data);
+    else
+        return std::move(reply.answers);
+}
+
 /// How much work questions are: tiles count their blocks of samples.
 template <class Question>
 std::size_t work_in(const std::vector<Question>& questions) {
@@ -116,6 +130,8 @@ inline std::size_t answers_to(const Query&, std::size_t width) { return width; }
 inline std::size_t answers_to(const Tile& tile, std::size_t width) {
     return tile.rehearses() ? 0 : tile.pixels() * width;
 }
+
+inline std::size_t answers_to(const Step&, std::size_t) { return 0; }  // but bytes
 
 template <class Question>
 std::size_t answers_to(const std::vector<Question>& questions, std::size_t width) {

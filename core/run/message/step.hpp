@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <type_traits>
 
 #include "core/base/hash.hpp"
@@ -47,6 +48,13 @@ struct StepReport {
     std::uint32_t count = 0;
     friend bool operator==(const StepReport&, const StepReport&) = default;
 };
+
+/// "shard 4 of what a node prepares", of a step of shards.
+inline std::string describe(const Step& step) {
+    const auto last = step.first + step.count - 1;
+    const auto which = step.count == 1 ? " " : "s " + std::to_string(step.first) + " to ";
+    return "shard" + which + std::to_string(last) + " of what a node prepares";
+}
 
 static_assert(std::is_trivially_copyable_v<Step> && sizeof(Step) == 48);
 static_assert(std::is_trivially_copyable_v<StepReport> && sizeof(StepReport) == 12);

@@ -19,6 +19,7 @@
 #include "core/base/error.hpp"
 #include "core/base/hash.hpp"
 #include "core/network/light/describe_question.hpp"
+#include "core/network/light/mapped.hpp"
 #include "core/run/message/channel.hpp"
 #include "core/run/message/counters.hpp"
 #include "core/run/message/region.hpp"
@@ -52,12 +53,12 @@ struct MultiplexerRules {
     std::function<double()> clock = steady_seconds;
 };
 
-/// Does what its Scheduler decides. Serves light and rendering, threads and hosts alike, and may be made of
-/// multiplexers: whoever asks other hosts deals to hosts, and each of those to its places. Bundles that are large for
-/// what they cost are cut up, so that idle replicas share them; with affinity, every replica gets the questions of its
-/// regions. Bundles come back to their owner answered, failed or set aside, never returned: what a lost replica had is
-/// asked again here, and in halves if it was lost twice on the way to a host that did not die. Does not own its
-/// channels; used by one thread.
+/// Does what its Scheduler decides. Serves light, rendering and shards of preparing, threads and hosts alike, and may
+/// be made of multiplexers: whoever asks other hosts deals to hosts, and each of those to its places. Bundles that are
+/// large for what they cost are cut up, so that idle replicas share them; with affinity, every replica gets the
+/// questions of its regions. Bundles come back to their owner answered, failed or set aside, never returned: what a
+/// lost replica had is asked again here, and in halves if it was lost twice on the way to a host that did not die. Does
+/// not own its channels; used by one thread.
 template <class Question>
 class Multiplexer final : public Channel<Question>, private BundleOwner<Question> {
 public:
@@ -136,9 +137,9 @@ private:
     // Work that several hosts are asked. All entries of it share it; the last that comes back hands on the answers.
     struct Check {
         Votes votes;
-        std::vector<std::pair<Hash, std::vector<Rgb>>> answers;  // that differ
-        std::size_t asked = 1;                                   // entries of it that are not back
-        bool begun = false;                                      // a second host is asked
+        std::vector<std::pair<Hash, Answers<Question>>> answers;  // that differ
+        std::size_t asked = 1;                                    // entries of it that are not back
+        bool begun = false;                                       // a second host is asked
     };
     struct Entry {
         Bundle<Question> bundle;
@@ -150,7 +151,7 @@ private:
         std::vector<Scheduler::Host> lost_at{};
     };
 
-    void answered(const Bundle<Question>& bundle, std::vector<Rgb> answers) override {
+    void answered(const Bundle<Question>& bundle, Answers<Question> answers) override {
         replied(bundle, std::move(answers));
     }
     void failed(const Bundle<Question>& bundle, const Failure& failure) override;
@@ -163,14 +164,14 @@ private:
     Performed perform(const std::vector<Scheduler::Action>& actions);
     void add_replica(Channel<Question>* channel);
     void feel_pulses();
-    void replied(const Bundle<Question>& bundle, std::vector<Rgb> answers);
-    bool fits(const Bundle<Question>& bundle, const std::vector<Rgb>& answers) const;
-    void deliver(Entry entry, std::vector<Rgb> answers);
+    void replied(const Bundle<Question>& bundle, Answers<Question> answers);
+    Entry* entry_of(Scheduler::CopyId copy);
+    void deliver(Entry entry, Answers<Question> answers);
     void give_up(const Entry& entry, const Failure& failure, bool set_aside);
     void settle(const std::vector<Scheduler::Action>& actions);
     void set_aside_work(const Scheduler::SetAside& verdict);
-    void compare_later(const Entry& entry, Scheduler::CopyId first, const std::vector<Rgb>& answers);
-    void compare(Scheduler::CopyId copy, const std::vector<Rgb>& answers);
+    void compare_later(const Entry& entry, Scheduler::CopyId first, const Answers<Question>& answers);
+    void compare(Scheduler::CopyId copy, const Answers<Question>& answers);
     std::vector<std::vector<std::uint32_t>> cut(const std::vector<Question>& questions) const;
     std::vector<std::vector<std::uint32_t>> by_home(const std::vector<Question>& questions) const;
     std::shared_ptr<Whole> whole_of(const Bundle<Question>& bundle) const;
@@ -180,7 +181,7 @@ private:
     void halve(Scheduler::WorkId work);
     void add(Entry entry, std::set<Scheduler::Host> not_at = {});
     bool ask_another(Entry& entry, Scheduler::Replica asked);
-    void heard(Entry entry, const std::string& host, std::vector<Rgb> answers);
+    void heard(Entry entry, const std::string& host, Answers<Question> answers);
     void unheard(Entry entry, const Failure& failure, bool set_aside);
     void weigh(Entry entry);
     void let_dropped_go();

@@ -5,6 +5,22 @@
 
 namespace lightnet {
 
+/// How much work it is to schedule questions: shards are so each.
+template <class Question>
+std::size_t amount_of(const std::vector<Question>& questions) {
+    if constexpr (std::is_same_v<Question, Step>)
+        return questions.front().count;
+    else
+        return work_in(questions);
+}
+
+/// How many of the shards that were asked for are in an answer; 0: answers of this kind are whole.
+inline std::size_t shards_in(const Bytes& joined) { return split_shards(joined).size(); }
+inline std::size_t shards_in(const std::vector<Rgb>&) { return 0; }
+
+inline Hash hash_of(const Bytes& answers) { return content_hash(*answers); }
+inline Hash hash_of(const std::vector<Rgb>& answers) { return content_hash(std::as_bytes(std::span(answers))); }
+
 template <class Question>
 void Multiplexer<Question>::use(std::vector<Channel<Question>*> channels,
                                 const std::vector<Channel<Question>*>& draining) {
@@ -123,9 +139,10 @@ template <class Question>
 void Multiplexer<Question>::add(Entry entry, std::set<Scheduler::Host> not_at) {
     const auto& questions = *entry.bundle.questions;
     const auto bytes = questions.size() * sizeof(Question) + answers_to(questions, entry.bundle.width) * sizeof(Rgb);
-    const Scheduler::Added added{next_work_, work_in(questions), bytes, region_of(questions.front()),
+    const Scheduler::Added added{next_work_, amount_of(questions), bytes, region_of(questions.front()),
                                  std::move(not_at)};
-    if (!entry.check && rules_.checks.next()) entry.check = std::make_shared<Check>(Check{Votes(rules_.own), {}});
+    if (!entry.check && (entry.bundle.checked || rules_.checks.next()))
+        entry.check = std::make_shared<Check>(Check{Votes(rules_.own), {}});
     entries_.emplace(next_work_++, std::move(entry));
     tell(added);
 }
@@ -233,9 +250,7 @@ void Multiplexer<Question>::settle(const std::vector<Scheduler::Action>& actions
 
 template <class Question>
 void Multiplexer<Question>::failed(const Bundle<Question>& bundle, const Failure& failure) {
-    const auto work = scheduler_.in_flight().work_of(bundle.number);
-    if (const auto entry = work ? entries_.find(*work) : entries_.end(); entry != entries_.end())
-        entry->second.failure = failure;
+    if (auto* const entry = entry_of(bundle.number)) entry->failure = failure;
     std::vector<Scheduler::Action> actions;
     scheduler_.on(Scheduler::Failed{bundle.number}, rules_.clock(), actions);
     expected_.erase(bundle.number);
@@ -245,24 +260,34 @@ void Multiplexer<Question>::failed(const Bundle<Question>& bundle, const Failure
     count();
 }
 
+// Null: its work is done.
 template <class Question>
-bool Multiplexer<Question>::fits(const Bundle<Question>& bundle, const std::vector<Rgb>& answers) const {
-    const auto work = scheduler_.in_flight().work_of(bundle.number);
+typename Multiplexer<Question>::Entry* Multiplexer<Question>::entry_of(Scheduler::CopyId copy) {
+    const auto work = scheduler_.in_flight().work_of(copy);
     const auto entry = work ? entries_.find(*work) : entries_.end();
-    return entry == entries_.end() ||
-           answers.size() == answers_to(*entry->second.bundle.questions, entry->second.bundle.width);
+    return entry == entries_.end() ? nullptr : &entry->second;
 }
 
 template <class Question>
-void Multiplexer<Question>::replied(const Bundle<Question>& bundle, std::vector<Rgb> answers) {
+std::string mistake_in(const Bundle<Question>& bundle, const Answers<Question>& answers, const std::string& host) {
+    if constexpr (std::is_same_v<Question, Step>)
+        return bundle.owner->mistake_in(bundle, answers, host);
+    else if (answers.size() != answers_to(*bundle.questions, bundle.width))
+        return "an answer of " + (host.empty() ? "a place" : host) + " has a wrong size";
+    return {};
+}
+
+template <class Question>
+void Multiplexer<Question>::replied(const Bundle<Question>& bundle, Answers<Question> answers) {
     const auto replica = scheduler_.in_flight().replica_of(bundle.number);
     const Load load = replica && slots_[*replica].channel ? slots_[*replica].channel->load() : Load{};
-    if (!fits(bundle, answers)) {
-        const auto host = replica ? slots_[*replica].host : std::string();
-        return failed(bundle, {"an answer of " + (host.empty() ? "a place" : host) + " has a wrong size", host});
-    }
+    const auto host = replica ? slots_[*replica].host : std::string();
+    const auto* const wanted = entry_of(bundle.number);
+    if (const auto mistake = wanted ? mistake_in(wanted->bundle, answers, host) : std::string(); !mistake.empty())
+        return failed(bundle, {mistake, host});
+    const Scheduler::Replied reply{bundle.number, load.fill, load.service_ns * 1e-9, wanted ? shards_in(answers) : 0};
     std::vector<Scheduler::Action> actions;
-    scheduler_.on(Scheduler::Replied{bundle.number, load.fill, load.service_ns * 1e-9}, rules_.clock(), actions);
+    scheduler_.on(reply, rules_.clock(), actions);
     const auto* accept = std::get_if<Scheduler::Accept>(&actions.front());
     if (!accept) {
         if (counters_) ++counters_->late_replies;
@@ -270,22 +295,25 @@ void Multiplexer<Question>::replied(const Bundle<Question>& bundle, std::vector<
     }
     Entry entry = std::move(entries_.extract(accept->work).mapped());
     compare_later(entry, bundle.number, answers);
-    if (entry.check) return heard(std::move(entry), slots_[*replica].host, std::move(answers));
+    if (entry.check) return heard(std::move(entry), host, std::move(answers));
     deliver(std::move(entry), std::move(answers));
 }
 
 template <class Question>
-void Multiplexer<Question>::deliver(Entry entry, std::vector<Rgb> answers) {
+void Multiplexer<Question>::deliver(Entry entry, Answers<Question> answers) {
     if (!entry.whole) return entry.bundle.owner->answered(entry.bundle, std::move(answers));
-    auto& whole = *entry.whole;
-    auto from = answers.begin();
-    for (const auto index : entry.where) {
-        const auto count = answers_to((*whole.bundle.questions)[index], whole.bundle.width);
-        const auto to = whole.at.empty() ? index * count : whole.at[index];
-        std::copy_n(from, count, whole.answers.begin() + static_cast<std::ptrdiff_t>(to));
-        from += static_cast<std::ptrdiff_t>(count);
+    if constexpr (!std::is_same_v<Question, Step>) {  // which is never cut
+        auto& whole = *entry.whole;
+        auto from = answers.begin();
+        for (const auto index : entry.where) {
+            const auto count = answers_to((*whole.bundle.questions)[index], whole.bundle.width);
+            const auto to = whole.at.empty() ? index * count : whole.at[index];
+            std::copy_n(from, count, whole.answers.begin() + static_cast<std::ptrdiff_t>(to));
+            from += static_cast<std::ptrdiff_t>(count);
+        }
+        if (--whole.missing == 0 && !whole.given_up)
+            whole.bundle.owner->answered(whole.bundle, std::move(whole.answers));
     }
-    if (--whole.missing == 0 && !whole.given_up) whole.bundle.owner->answered(whole.bundle, std::move(whole.answers));
 }
 
 template <class Question>
@@ -332,19 +360,19 @@ std::chrono::nanoseconds Multiplexer<Question>::until_due() const {
 
 template <class Question>
 void Multiplexer<Question>::compare_later(const Entry& entry, Scheduler::CopyId first,
-                                          const std::vector<Rgb>& answers) {
+                                          const Answers<Question>& answers) {
     if (!rules_.differs || entry.copies.size() < 2) return;
-    const auto hash = content_hash(std::as_bytes(std::span(answers)));
+    const auto hash = hash_of(answers);
     for (const auto copy : entry.copies)
         if (copy != first && expected_.size() < 100000) expected_[copy] = hash;  // some never come
 }
 
 template <class Question>
-void Multiplexer<Question>::compare(Scheduler::CopyId copy, const std::vector<Rgb>& answers) {
+void Multiplexer<Question>::compare(Scheduler::CopyId copy, const Answers<Question>& answers) {
     const auto expected = expected_.extract(copy);
     if (expected.empty()) return;
     if (counters_) ++counters_->compared;
-    if (content_hash(std::as_bytes(std::span(answers))) != expected.mapped())
+    if (hash_of(answers) != expected.mapped())
         rules_.differs("the same questions were answered twice, and differently");
 }
 

@@ -21,9 +21,9 @@ bool Multiplexer<Question>::ask_another(Entry& entry, Scheduler::Replica asked) 
 }
 
 template <class Question>
-void Multiplexer<Question>::heard(Entry entry, const std::string& host, std::vector<Rgb> answers) {
+void Multiplexer<Question>::heard(Entry entry, const std::string& host, Answers<Question> answers) {
     auto& check = *entry.check;
-    const auto hash = content_hash(std::as_bytes(std::span(answers)));
+    const auto hash = hash_of(answers);
     check.votes.add(host, hash);
     const bool known =
         std::any_of(check.answers.begin(), check.answers.end(), [&](const auto& one) { return one.first == hash; });

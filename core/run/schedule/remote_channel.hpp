@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -78,8 +79,8 @@ public:
             if (message.trouble.host.empty()) message.trouble.host = address_.place.host;
             return owner_->failed(bundle, message.trouble);
         }
-        load_ = message.load;
-        owner_->answered(bundle, std::move(message.answers));
+        if (!std::is_same_v<Question, Step>) load_ = message.load;  // which counts shards that go together as one
+        owner_->answered(bundle, take_answers<Question>(message));
     }
 
     /// The place is gone: nothing more is sent, and what still comes from it is dropped.
