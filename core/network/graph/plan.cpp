@@ -178,6 +178,10 @@ Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, cons
     return planner.take();
 }
 
+bool holds(const Plan& plan, const PlaceAt& place, std::size_t node) {
+    return std::ranges::any_of(plan.places_of[node], [&](auto i) { return plan.places[i] == place; });
+}
+
 std::uint32_t places_of_host(const Plan& plan, std::string_view host) {
     return static_cast<std::uint32_t>(std::count_if(plan.places.begin(), plan.places.end(),
                                                     [&](const PlaceAt& place) { return place.host == host; }));

@@ -107,6 +107,9 @@ struct HostOffer {
 /// places.
 Plan plan(const Graph& graph, const Registry& registry, const Hosts& hosts, const std::vector<HostOffer>& offers);
 
+/// Does this place hold the node?
+bool holds(const Plan& plan, const PlaceAt& place, std::size_t node);
+
 /// How many places a host has.
 std::uint32_t places_of_host(const Plan& plan, std::string_view host);
 

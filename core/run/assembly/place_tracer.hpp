@@ -11,7 +11,7 @@
 
 #include "core/network/graph/graph.hpp"
 #include "core/run/fiber/fiber.hpp"
-#include "core/run/message/carrier.hpp"
+#include "core/run/message/forwarding_carrier.hpp"
 #include "core/run/message/place_trace.hpp"
 
 namespace lightnet {
@@ -52,26 +52,13 @@ private:
 };
 
 /// A carrier that tells a tracer what leaves and what comes.
-class TracingCarrier final : public Carrier {
+class TracingCarrier final : public ForwardingCarrier {
 public:
-    TracingCarrier(Carrier& carrier, PlaceTracer& tracer) : carrier_(carrier), tracer_(tracer) {}
+    TracingCarrier(Carrier& carrier, PlaceTracer& tracer) : ForwardingCarrier(carrier), tracer_(tracer) {}
     bool ask(const PlaceAt& to, Message& message) override;
-    void reply(Message message) override { carrier_.reply(std::move(message)); }
     std::optional<Message> receive() override;
-    void wait(std::chrono::nanoseconds most) override { carrier_.wait(most); }
-    void give_up(std::uint32_t channel) override { carrier_.give_up(channel); }
-    bool bring(const PlaceAt& to, const Hash& name, const Bytes& bytes) override {
-        return carrier_.bring(to, name, bytes);
-    }
-    void adopt(const Plan& plan) override { carrier_.adopt(plan); }
-    bool take_out(const std::string& host, const std::string& why) override { return carrier_.take_out(host, why); }
-    void doubt(const Failure& lie) override { carrier_.doubt(lie); }
-    std::uint64_t pulse(const std::string& host) const override { return carrier_.pulse(host); }
-    void forget(const PlaceAt& place) override { carrier_.forget(place); }
-    const Counters& counters() const override { return carrier_.counters(); }
 
 private:
-    Carrier& carrier_;
     PlaceTracer& tracer_;
 };
 

@@ -105,7 +105,8 @@ Plan PlanInForce::restricted() {
     return plan;
 }
 
-bool PlanInForce::enforce() {
+bool PlanInForce::enforce(const std::set<NodeCopy>* rehearsing) {
+    rehearsing_ = rehearsing;
     auto plan = restricted();
     if (plan == state_.in_force) return false;
     // All places are told of each plan, so those of a crowd that come one by one are put in force some at a time.

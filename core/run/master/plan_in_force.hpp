@@ -15,10 +15,9 @@ class PlanInForce {
 public:
     explicit PlanInForce(PrepareState& state) : state_(state) {}
 
-    /// Those who take part in the rehearsal that goes on, who are asked before they are prepared; null: none does.
-    void rehearse(const std::set<NodeCopy>* copies) { rehearsing_ = copies; }
-    /// Puts in force what can be asked by now. False: that is in force already, or soon enough.
-    bool enforce();
+    /// Puts in force what can be asked by now. `rehearsing`: those who take part in a rehearsal, and are asked before
+    /// they are prepared; null: none goes on. False: that is in force already, or soon enough.
+    bool enforce(const std::set<NodeCopy>* rehearsing);
     /// A place is gone.
     void lose(const PlaceAt& place) { known_prepared_.erase(place); }
     /// Nobody is known to have had all.

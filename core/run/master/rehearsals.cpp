@@ -50,7 +50,8 @@ bool Rehearsals::advance() {
     }
     for (const auto& copy : now_->copies())
         if (now_->wants_notes_of(copy) &&
-            at_.steps.send({copy, done, {.kind = Step::Kind::collect, .call = now_->call(), .first = at_.epoch.number()}}))
+            at_.steps.send(
+                {copy, done, {.kind = Step::Kind::collect, .call = now_->call(), .first = at_.epoch.number()}}))
             now_->asked(copy);
     return false;
 }

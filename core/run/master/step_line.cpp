@@ -35,7 +35,8 @@ void StepLine::failed(const SentStep& sent, const std::string& why, const std::v
     const auto& host = sent.to.place.host;
     auto& hosts = failed_at_[{sent.position, sent.step.kind, sent.step.call}];
     hosts.insert(host);
-    const bool others = std::ranges::any_of(holders, [&](const auto& copy) { return !hosts.contains(copy.place.host); });
+    const bool others =
+        std::ranges::any_of(holders, [&](const auto& copy) { return !hosts.contains(copy.place.host); });
     if (hosts.size() > 1 || !(others || carrier_.expects_hosts())) throw Error(why);
     if (!carrier_.take_out(host, why)) throw Error(why);
 }

@@ -24,10 +24,6 @@ bool may_rehearse(const Network& network, std::size_t node) {
 
 }  // namespace
 
-bool holds(const Plan& plan, const PlaceAt& place, std::size_t node) {
-    return std::ranges::any_of(plan.places_of[node], [&](auto i) { return plan.places[i] == place; });
-}
-
 PlacePorts::PlacePorts(Lent lent, const Plan& plan)
     : at_(std::move(lent)),
       plan_(plan),

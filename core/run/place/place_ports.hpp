@@ -20,9 +20,6 @@
 
 namespace lightnet {
 
-/// Does this place hold the node?
-bool holds(const Plan& plan, const PlaceAt& place, std::size_t node);
-
 /// Ports by node and width, made when they are first asked for, and led anew with each plan. Where others have less to
 /// do than this place, they get some of what its own nodes ask each other. One place's.
 class PlacePorts {
