@@ -164,7 +164,7 @@ struct PixelRecount::Parts {
     SerialRun run;  // asks through the keeper's tap
 
     Parts(Source given, std::unique_ptr<ResultCache> results, std::function<void()> pause)
-        : source(std::move(given)), cache(std::move(results)), run(*source.network, std::move(pause), keeper.tap()) {
+        : source(std::move(given)), cache(std::move(results)), run(*source.network, std::move(pause), &keeper) {
         run.prepare(source.made_from, cache.get());
     }
 };

@@ -4,11 +4,12 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/math/rgb.hpp"
 #include "core/base/query.hpp"
-#include "core/run/assembly/assembly.hpp"
+#include "core/network/light/port.hpp"
 #include "core/scene/ray_witness.hpp"
 
 namespace lightnet {
@@ -38,7 +39,7 @@ struct Account {
     std::vector<TracedRay> rays;
 };
 
-/// Keeps accounts of a SerialRun, which is made with its tap and lives shorter. What one call asks together goes on one
+/// Keeps accounts of a SerialRun, which is made with it and lives shorter. What one call asks together goes on one
 /// by one while an account is kept, so that it is known which question leads to which; no answer depends on its
 /// neighbours. One thread's.
 class AccountKeeper {
@@ -48,17 +49,17 @@ public:
     AccountKeeper(const AccountKeeper&) = delete;
     AccountKeeper& operator=(const AccountKeeper&) = delete;
 
-    Assembly::Tap tap();
     /// From now on, of the calling thread.
     void begin();
     /// What happened since.
     Account end();
+    bool keeps() const { return keeps_; }
+    /// Asks a question on an edge, and keeps it with all that it leads to.
+    void ask(std::size_t asker, std::size_t asked, Port& port, const Query& question, std::span<Rgb> answer);
 
 private:
-    class TappedPort;
     class Watching;
 
-    std::vector<std::unique_ptr<Port>> ports_;
     std::unique_ptr<Watching> watching_;
     RayWitness* before_ = nullptr;
     bool keeps_ = false;

@@ -24,22 +24,6 @@ std::vector<std::uint32_t> positions(const Terminals& part, const Terminals& who
     return at;
 }
 
-// Sees to it that nobody asks with a lock in hand.
-class GuardedPort final : public Port {
-public:
-    GuardedPort(Port& port, const Locks& locks) : port_(port), locks_(locks) {}
-    Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override {
-        locks_.check_may_ask();
-        return port_.begin(questions, answers);
-    }
-    void finish(Ticket ticket) override { port_.finish(ticket); }
-    void abandon(Ticket ticket) noexcept override { port_.abandon(ticket); }
-
-private:
-    Port& port_;
-    const Locks& locks_;
-};
-
 template <class Make>
 auto made(const Network& network, std::size_t node, Inputs inputs, const NodeServices& services, const Make& make) {
     const auto& what = network.graph.nodes[whole_of(network.graph, node)];  // nobody knows that it has a sector
@@ -88,8 +72,10 @@ std::shared_ptr<const Sectors> Network::sectors(std::size_t node) const {
 }
 
 Port* Assembly::port_between(std::size_t asker, std::size_t asked, std::size_t width) {
-    Port* port = port_to_(asked, width);
-    return tap_ ? tap_(asker, asked, width, port) : port;
+    Edge::Watch watch = watch_;
+    if (network_.kind_of(asker).run.locks) watch.locks = services_.locks;
+    return edges_.emplace_back(std::make_unique<Edge>(Edge::Ends{asker, asked, width}, *port_to_(asked, width), watch))
+        .get();
 }
 
 Inputs Assembly::inputs_of(std::size_t node) {
@@ -110,8 +96,6 @@ Inputs Assembly::inputs_of(std::size_t node) {
         if (image)
             for (auto& layer : input.layers) layer = network_.layers.of_colour[layer];
         input.port = port_between(node, asked, input.width());
-        if (network_.kind_of(node).run.locks)
-            input.port = guarded_.emplace_back(std::make_unique<GuardedPort>(*input.port, *services_.locks)).get();
         inputs.push_back(std::move(input));
     }
     if (image)

@@ -21,6 +21,7 @@
 #include "core/network/light/sectors.hpp"
 #include "core/run/assembly/activity.hpp"
 #include "core/run/assembly/direct_port.hpp"
+#include "core/run/assembly/edge.hpp"
 #include "core/run/assembly/gauge.hpp"
 #include "core/run/assembly/kept.hpp"
 #include "core/run/assembly/node_by_pass.hpp"
@@ -89,14 +90,9 @@ public:
     /// outlive the assembly.
     using PortTo = std::function<Port*(std::size_t node, std::size_t width)>;
 
-    /// Gives the port that stands between a node and one that it asks, in place of `port`, which reaches the asked one.
-    /// It must outlive the assembly.
-    using Tap = std::function<Port*(std::size_t asker, std::size_t asked, std::size_t width, Port* port)>;
-
-    /// `services`: what the place gives all its nodes, locks among them.
-    /// `tap` may be empty.
-    Assembly(const Network& network, PortTo port_to, NodeServices services, Tap tap = {})
-        : network_(network), port_to_(std::move(port_to)), tap_(std::move(tap)), services_(std::move(services)) {
+    /// `services`: what the place gives all its nodes, locks among them. `watch`: what all their edges are watched by.
+    Assembly(const Network& network, PortTo port_to, NodeServices services, const Edge::Watch& watch = {})
+        : network_(network), port_to_(std::move(port_to)), watch_(watch), services_(std::move(services)) {
         services_.scratch = &scratch_;
         services_.checking = network.check_answers;
         services_.has_passes = network.has_passes();
@@ -145,11 +141,11 @@ private:
 
     const Network& network_;
     PortTo port_to_;
-    Tap tap_;
+    Edge::Watch watch_;
     NodeServices services_;
     Scratch scratch_;
     Gauge* gauge_ = nullptr;
-    std::vector<std::unique_ptr<Port>> guarded_;
+    std::vector<std::unique_ptr<Edge>> edges_;
     std::map<std::size_t, Rehearsal> rehearsals_;
     BadLight bad_;
     LostByNode lost_rays_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/network/light/port.hpp"
-
 namespace lightnet {
 namespace {
 
@@ -14,54 +12,24 @@ std::uint64_t since(std::chrono::nanoseconds begun, std::chrono::nanoseconds now
 
 }  // namespace
 
-class EdgeMeter::MeteredPort final : public Port {
-public:
-    MeteredPort(EdgeMeter& meter, Measured& edge, std::size_t asker, std::size_t asked, Port& port)
-        : meter_(meter), figures_(edge.record), shown_(*edge.shown), asker_(asker), asked_(asked), port_(port) {}
+EdgeMeter::Asking::Asking(EdgeMeter& meter, Measured& edge, std::size_t questions)
+    : meter_(meter),
+      record_(edge.record),
+      before_(std::exchange(meter.gauge_.along, edge.shown)),
+      questions_(questions),
+      ran_before_(meter.running_()) {
+    ++record_.asks;
+    record_.questions += questions;
+    edge.shown->questions.add(questions);
+    if (meter.tracer_) called_at_ = std::chrono::steady_clock::now();
+}
 
-    Ticket begin(std::span<const Query> questions, std::span<Rgb> answers) override {
-        ++figures_.asks;
-        figures_.questions += questions.size();
-        shown_.questions.add(questions.size());
-        const Asking asking(meter_.gauge_, &shown_);
-        const auto begun = meter_.running_();
-        const auto called_at =
-            meter_.tracer_ ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{};
-        const auto ticket = port_.begin(questions, answers);
-        const auto ran = since(begun, meter_.running_());
-        figures_.called_ns += ran;
-        if (meter_.learns_ && meter_.learns_(asker_))
-            figures_.learning += questions.size(), figures_.learning_ns += ran;
-        if (meter_.tracer_ && !ticket) meter_.tracer_->called(asked_, called_at);
-        return ticket;
-    }
-    void finish(Ticket ticket) override {
-        const auto begun = std::chrono::steady_clock::now();
-        port_.finish(ticket);
-        figures_.waited_ns += since({}, std::chrono::steady_clock::now() - begun);
-    }
-    void abandon(Ticket ticket) noexcept override { port_.abandon(ticket); }
-
-private:
-    // Nodes that are called meanwhile ask along edges of their own.
-    class Asking {
-    public:
-        Asking(Gauge& gauge, Gauge::Edge* edge) : gauge_(gauge), before_(std::exchange(gauge.along, edge)) {}
-        ~Asking() { gauge_.along = before_; }
-        Asking(const Asking&) = delete;
-        Asking& operator=(const Asking&) = delete;
-
-    private:
-        Gauge& gauge_;
-        Gauge::Edge* before_;
-    };
-
-    EdgeMeter& meter_;
-    EdgeRecord& figures_;
-    Gauge::Edge& shown_;
-    std::size_t asker_, asked_;
-    Port& port_;
-};
+void EdgeMeter::Asking::begun(std::size_t asker, std::size_t asked, bool called) {
+    const auto ran = since(ran_before_, meter_.running_());
+    record_.called_ns += ran;
+    if (meter_.learns_ && meter_.learns_(asker)) record_.learning += questions_, record_.learning_ns += ran;
+    if (meter_.tracer_ && called) meter_.tracer_->called(asked, called_at_);
+}
 
 EdgeMeter::EdgeMeter(Gauge& gauge, std::vector<AskingEdge> shown, Running running)
     : gauge_(gauge), shown_(std::move(shown)), running_(std::move(running)) {}
@@ -73,16 +41,6 @@ EdgeMeter::Measured& EdgeMeter::measured(std::size_t asker, std::size_t asked) {
     const auto found = std::find(shown_.begin(), shown_.end(), AskingEdge{asker, asked});
     edge.shown = found == shown_.end() ? &edge.own : &gauge_.edges[static_cast<std::size_t>(found - shown_.begin())];
     return edge;
-}
-
-EdgeMeter::~EdgeMeter() = default;
-
-Assembly::Tap EdgeMeter::tap(Assembly::Tap behind) {
-    return [this, behind](std::size_t asker, std::size_t asked, std::size_t width, Port* port) -> Port* {
-        if (behind) port = behind(asker, asked, width, port);
-        return ports_.emplace_back(std::make_unique<MeteredPort>(*this, measured(asker, asked), asker, asked, *port))
-            .get();
-    };
 }
 
 void EdgeMeter::write(const Graph& graph, PlaceRecord& to) const {

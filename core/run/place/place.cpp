@@ -34,9 +34,9 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       meter_(
           gauge, asking_edges(network.graph, network.layers, network.registry),
           [this] { return fibers_.current() ? fibers_.running_time(fibers_.current()) : std::chrono::nanoseconds{}; }),
-      assembly_(
-          network, [this](std::size_t node, std::size_t width) { return ports_.port_to(node, width); },
-          {.locks = &locks_, .concurrent = &rounds_, .whereabouts = [this] { return whereabouts(); }}, meter_.tap()),
+      assembly_(network, [this](std::size_t node, std::size_t width) { return ports_.port_to(node, width); },
+                {.locks = &locks_, .concurrent = &rounds_, .whereabouts = [this] { return whereabouts(); }},
+                {.meter = &meter_}),
       preparer_(network, assembly_, fibers_, {my_name(), wake(), reply(), [this] { look(); }}),
       answerer_({network, assembly_, preparer_, me_.host, my_name(), counters_.tiles}) {
     assembly_.show(gauge);

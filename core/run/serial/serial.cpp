@@ -90,7 +90,7 @@ private:
     bool counts_ = false;  // the node says itself how much is done
 };
 
-SerialRun::SerialRun(const Network& network, std::function<void()> pause, Assembly::Tap tap)
+SerialRun::SerialRun(const Network& network, std::function<void()> pause, AccountKeeper* keeper)
     : network_(network),
       pause_(std::move(pause)),
       image_(renderer_of(network.graph, network.registry)),
@@ -98,14 +98,14 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause, Assemb
       gauge_(network.graph.nodes.size(), asking_edges(network.graph, network.layers, network.registry).size()),
       meter_(gauge_, asking_edges(network.graph, network.layers, network.registry),
              [] { return std::chrono::steady_clock::now().time_since_epoch(); }),
-      assembly_(
-          network,
-          [this](std::size_t node, std::size_t width) {
-              const auto called = assembly_.callee(node);
-              return ports_.emplace_back(std::make_unique<DirectPort>(called, width, counters_.local_questions, pause_))
-                  .get();
-          },
-          {.locks = &locks_}, meter_.tap(std::move(tap))) {
+      assembly_(network,
+                [this](std::size_t node, std::size_t width) {
+                    const auto called = assembly_.callee(node);
+                    return ports_
+                        .emplace_back(std::make_unique<DirectPort>(called, width, counters_.local_questions, pause_))
+                        .get();
+                },
+                {.locks = &locks_}, {.meter = &meter_, .keeper = keeper}) {
     assembly_.show(gauge_);
     assembly_.renderer(image_);
 }

@@ -22,8 +22,9 @@ namespace lightnet {
 /// Renders tiles one after the other on the caller's thread. Opens no socket and makes no fiber.
 class SerialRun {
 public:
-    /// `pause` is called often; it may throw to end the work. `tap`: see Assembly.
-    explicit SerialRun(const Network& network, std::function<void()> pause = {}, Assembly::Tap tap = {});
+    /// `pause` is called often; it may throw to end the work. `keeper`: of what is
+    /// asked; null: nobody is.
+    explicit SerialRun(const Network& network, std::function<void()> pause = {}, AccountKeeper* keeper = nullptr);
 
     /// Has all nodes that prepare do so. Before the first tile, which belongs to pass `pass`. Results are looked for in
     /// `cache`, and kept there; lines for the user go to `say`.
