@@ -14,15 +14,13 @@ constexpr std::size_t shares_of_a_copy = 3;  // for each copy, see guided_share(
 }  // namespace
 
 ShardDealer::ShardDealer(Job job) : job_(std::move(job)), missing_(job_.count) {
-    for (std::uint32_t shard = 0; shard < job_.count; ++shard) {
-        to_do_.push_back(shard);
-        if (job_.checks.next()) checked_.insert(shard);
-    }
+    for (std::uint32_t shard = 0; shard < job_.count; ++shard) to_do_.push_back(shard);
     MultiplexerRules rules;
     rules.scheduling.last_to_idle = true;
     rules.scheduling.double_tail = true;
     rules.scheduling.tail_part = 1;  // nobody has anything else to do
     rules.clock = job_.clock;
+    rules.checks = job_.checks;
     rules.own = "";
     rules.at_fault = job_.at_fault;
     rules.doubt = job_.doubt;
@@ -36,12 +34,11 @@ void ShardDealer::deal(std::size_t copies, bool more) {
     while (left() > 0 && replicas_.has_credit()) {
         const Step step = take_next(copies);
         replicas_.foresee(left());
-        replicas_.send({std::make_shared<const std::vector<Step>>(1, step), this, 0, 1, checked_.contains(step.first)});
+        replicas_.send({std::make_shared<const std::vector<Step>>(1, step), this, 0});
     }
     replicas_.tick();
 }
 
-// What is to be checked goes alone, so that two hosts answer the same.
 Step ShardDealer::take_next(std::size_t copies) {
     Step some{Step::Kind::shards, job_.call, 0, 1};
     if (!alone_.empty()) {
@@ -49,13 +46,11 @@ Step ShardDealer::take_next(std::size_t copies) {
         alone_.pop_back();
         return some;
     }
+    const auto most =
+        job_.checks.any() ? 1 : guided_share(to_do_.size(), std::max<std::size_t>(1, copies), shares_of_a_copy);
     some.first = to_do_.front();
     to_do_.pop_front();
-    const auto most = guided_share(to_do_.size() + 1, std::max<std::size_t>(1, copies), shares_of_a_copy);
-    const auto goes_along = [&](std::uint32_t shard) {
-        return shard == some.first + some.count && some.count < most && !checked_.contains(shard);
-    };
-    while (!checked_.contains(some.first) && !to_do_.empty() && goes_along(to_do_.front())) {
+    while (!to_do_.empty() && to_do_.front() == some.first + some.count && some.count < most) {
         to_do_.pop_front();
         ++some.count;
     }

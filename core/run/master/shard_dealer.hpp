@@ -6,7 +6,6 @@
 #include <deque>
 #include <functional>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +16,8 @@
 namespace lightnet {
 
 /// Has every shard of a call done by one of the copies that wait for its result, as a multiplexer has tiles rendered:
-/// by the same rules, and with the same votes. Several quick shards go together, and may be answered in part.
+/// by the same rules, and with the same votes. Several quick shards go together, and may be answered in part; but where
+/// some are checked, each goes alone: two parts can't be compared, and nobody is to know what is checked.
 /// Belongs to the launcher's thread.
 class ShardDealer final : private BundleOwner<Step> {
 public:
@@ -63,7 +63,6 @@ private:
     std::uint32_t missing_;
     std::deque<std::uint32_t> to_do_;   // in nobody's hands
     std::vector<std::uint32_t> alone_;  // and these, one by one
-    std::set<std::uint32_t> checked_;   // two hosts are asked
     std::optional<Error> error_;
     Multiplexer<Step> replicas_;
 };

@@ -21,7 +21,6 @@ struct Bundle {
     BundleOwner<Question>* owner = nullptr;  // who made it and gets the answers
     std::uint64_t number = 0;                // the owner's own, see Message
     std::uint32_t width = 1;                 // colours per question that are wanted
-    bool checked = false;                    // two hosts are to be asked
 };
 
 /// Makes bundles, and gets each back once: answered, failed, set aside, or returned unanswered.

@@ -5,22 +5,6 @@
 
 namespace lightnet {
 
-/// How much work it is to schedule questions: shards are so each.
-template <class Question>
-std::size_t amount_of(const std::vector<Question>& questions) {
-    if constexpr (std::is_same_v<Question, Step>)
-        return questions.front().count;
-    else
-        return work_in(questions);
-}
-
-/// How many of the shards that were asked for are in an answer; 0: answers of this kind are whole.
-inline std::size_t shards_in(const Bytes& joined) { return split_shards(joined).size(); }
-inline std::size_t shards_in(const std::vector<Rgb>&) { return 0; }
-
-inline Hash hash_of(const Bytes& answers) { return content_hash(*answers); }
-inline Hash hash_of(const std::vector<Rgb>& answers) { return content_hash(std::as_bytes(std::span(answers))); }
-
 template <class Question>
 void Multiplexer<Question>::use(std::vector<Channel<Question>*> channels,
                                 const std::vector<Channel<Question>*>& draining) {
@@ -141,8 +125,7 @@ void Multiplexer<Question>::add(Entry entry, std::set<Scheduler::Host> not_at) {
     const auto bytes = questions.size() * sizeof(Question) + answers_to(questions, entry.bundle.width) * sizeof(Rgb);
     const Scheduler::Added added{next_work_, amount_of(questions), bytes, region_of(questions.front()),
                                  std::move(not_at)};
-    if (!entry.check && (entry.bundle.checked || rules_.checks.next()))
-        entry.check = std::make_shared<Check>(Check{Votes(rules_.own), {}});
+    if (!entry.check && rules_.checks.next()) entry.check = std::make_shared<Check>(Check{Votes(rules_.own), {}});
     entries_.emplace(next_work_++, std::move(entry));
     tell(added);
 }
@@ -266,15 +249,6 @@ typename Multiplexer<Question>::Entry* Multiplexer<Question>::entry_of(Scheduler
     const auto work = scheduler_.in_flight().work_of(copy);
     const auto entry = work ? entries_.find(*work) : entries_.end();
     return entry == entries_.end() ? nullptr : &entry->second;
-}
-
-template <class Question>
-std::string mistake_in(const Bundle<Question>& bundle, const Answers<Question>& answers, const std::string& host) {
-    if constexpr (std::is_same_v<Question, Step>)
-        return bundle.owner->mistake_in(bundle, answers, host);
-    else if (answers.size() != answers_to(*bundle.questions, bundle.width))
-        return "an answer of " + (host.empty() ? "a place" : host) + " has a wrong size";
-    return {};
 }
 
 template <class Question>
