@@ -8,6 +8,7 @@
 
 #include "tests/modes/learning.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/hosts_in_memory.hpp"
 #include "tests/support/process.hpp"
 
 namespace lightnet::prepare_test {
@@ -52,6 +53,37 @@ TEST(Prepare, GivesTheBytesOfASerialRunOnHosts) {
     cluster.gather(test::slowdown * 20s, never);
     EXPECT_EQ(learning.networked(cluster), learning.serial());
     cluster.finish();
+}
+
+// Launcher and daemons, of which one is called and one dials in, and places of each that ask the other's.
+TEST(Prepare, GivesTheBytesOfASerialRunOverATransportOfAnotherMake) {
+    const Learning learning;
+    const test::Folder folder;
+    const auto hosts = std::make_shared<HostsInMemory>();
+    const auto host = [&](const char* name, const char* listen, const char* join) {
+        Host::Options options;
+        options.listen = listen, options.join = join, options.name = name;
+        options.places = 1;
+        options.cache = folder.file(name);
+        options.pass = folder.file("pass");
+        options.transport = hosts;
+        return options;
+    };
+    // No number of a machine: whoever opened a socket would find nobody.
+    HostThread one(learning.registry, host("one", "tcp://192.0.2.1:1", ""));
+    auto options = cluster_of(learning, {"tcp://192.0.2.1:1"});
+    options.transport = hosts;
+    options.listen = "tcp://192.0.2.9:1";
+    options.pass = folder.file("pass");
+    options.expected = {"two"};
+    Cluster cluster(std::move(options));
+    HostThread two(learning.registry, host("two", "", "tcp://192.0.2.9:1"));
+    const std::atomic<bool> never{false};
+    cluster.gather(test::slowdown * 20s, never);
+    EXPECT_TRUE(cluster.ready("two") && cluster.ready("tcp://192.0.2.1:1"));
+    EXPECT_EQ(learning.networked(cluster), learning.serial());
+    cluster.finish();
+    EXPECT_GT(hosts->sent(), 100u);
 }
 
 TEST(Prepare, GoesOnWhenAHostLeavesInTheMiddle) {

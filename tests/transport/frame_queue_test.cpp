@@ -1,12 +1,12 @@
 // Messages from thread to thread.
-#include "transport/zmq/frame_queue.hpp"
+#include "transport/lines/frame_queue.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <thread>
 
-#include "transport/zmq/poll.hpp"
+#include "transport/lines/poll.hpp"
 
 namespace lightnet::frame_queue_test {
 namespace {

@@ -9,6 +9,7 @@
 #include "tests/modes/stranger.hpp"
 #include "transport/launcher/cluster.hpp"
 #include "transport/launcher/join_listener.hpp"
+#include "transport/zmq/zmq_hosts.hpp"
 
 namespace lightnet::joiners_test {
 namespace {
@@ -58,8 +59,8 @@ protected:
         host.send(packet::pack(Type::join, 0, fields));
     }
 
-    SocketContext context;
-    JoinListener joiners{context, "tcp://127.0.0.1:*", Pass("the pass of this run's user")};
+    std::shared_ptr<HostTransport> hosts = zmq_hosts();
+    JoinListener joiners{*hosts, "tcp://127.0.0.1:*", Pass("the pass of this run's user")};
     std::string challenge;
     std::vector<std::string> called, lost, turned_down;
     std::map<std::string, std::unique_ptr<JoinedConnection>> connections;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "transport/zmq/poll.hpp"
+#include "transport/lines/poll.hpp"
 
 namespace lightnet::own_lines_test {
 namespace {

@@ -1,5 +1,5 @@
 // What two ends of a line make of each other's messages.
-#include "transport/zmq/paced_line.hpp"
+#include "transport/lines/paced_line.hpp"
 
 #include <gmock/gmock.h>
 

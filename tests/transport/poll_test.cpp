@@ -1,4 +1,4 @@
-#include "transport/zmq/poll.hpp"
+#include "transport/lines/poll.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/eventfd.h>

@@ -21,7 +21,7 @@
 #include "transport/launcher/probe_hosts.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/wire/pass.hpp"
-#include "transport/zmq/socket.hpp"
+#include "transport/zmq/zmq_hosts.hpp"
 
 namespace lightnet {
 namespace {
@@ -88,9 +88,7 @@ Finding look_at_threads() {
 
 Finding look_at_ports() {
     try {
-        const SocketContext context;
-        Socket socket = door_socket(context);
-        listen(socket, context, "tcp://127.0.0.1:*");
+        zmq_hosts()->listen("tcp://127.0.0.1:*", std::nullopt);
         return {Grade::good, "ports", "a daemon can listen on loopback", ""};
     } catch (const std::exception& error) {
         return {Grade::bad, "ports", "nothing can listen on loopback: " + words_of(error),

@@ -62,6 +62,7 @@ HostDoor::Options Host::Service::door_options() const {
 
 // Strangers can have much said.
 Host::Options Host::Service::bounded(Options wanted) {
+    if (!wanted.transport) wanted.transport = zmq_hosts(context);
     wanted.log = [this, tell = std::move(wanted.log)](const LogEntry& entry) {
         const auto kind = kind_of_line(entry.text);
         auto& bounds = kind == "refuses a" || kind == "turns away" ? refusals : log_bounds;
@@ -81,7 +82,7 @@ Host::Service::Service(Options given_options, const Registry& kinds)
       registry(kinds),
       cache(options.cache.empty() ? default_cache_folder() : options.cache, options.cache_size),
       rights(options.allow, options.launcher_key),
-      door(*context, door_options()) {
+      door(*options.transport, door_options()) {
     if (!options.places) options.places = static_cast<std::uint32_t>(machine.cores);
     options.log = [this, tell = std::move(options.log)](LogEntry entry) {
         if (run && !entry.run) entry.run = run->id();

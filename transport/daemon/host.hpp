@@ -17,6 +17,8 @@
 
 namespace lightnet {
 
+class HostTransport;
+
 /// What a host is at, and has done since it was started. A value.
 struct DaemonFigures {
     std::uint32_t places = 0;    // threads that render
@@ -49,6 +51,7 @@ public:
         std::chrono::milliseconds drain{20'000};            // to answer what it has when it is told to stop
         std::optional<std::chrono::milliseconds> patience;  // it leaves when nobody needs it for so long
         std::function<void(const LogEntry&)> log = [](const LogEntry&) {};  // called by the thread of serve()
+        std::shared_ptr<HostTransport> transport{};  // to launchers and other hosts; null: by ZeroMQ
     };
     /// Throws Error when the port can't be had, or the system has too few descriptors.
     Host(Options options, const Registry& registry);

@@ -174,7 +174,7 @@ void Host::Service::start(const Arriving& job, Arrival read) {
     rights.use_members(job.members);
     gateway.emplace(*context, job.id);
     peers.emplace(
-        *context, job.you,
+        *options.transport, job.you,
         PeerConnections::Handlers{[this](const std::string& place, Frames& frames) { gateway->forward(place, frames); },
                                   [this](const std::string& host) { gateway->request_resend(host); },
                                   [this](Frames& frames) { forward_to_launcher(frames); },

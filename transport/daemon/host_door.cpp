@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/run/assembly/job.hpp"
+#include "transport/lines/line_error.hpp"
 
 namespace lightnet {
 namespace {
@@ -29,15 +30,9 @@ bool is_counted(const Frames& frames) {
 
 }  // namespace
 
-HostDoor::HostDoor(const SocketContext& context, Options options)
-    : context_(context), options_(std::move(options)), silence_(shortest_silence) {
-    if (!options_.listen.empty()) {
-        keeper_.emplace(context_, options_.keys);
-        port_.emplace(door_socket(context_));
-        keeper_->guard(*port_);
-        listen(*port_, context_, options_.listen);
-        keeper_->try_out(*port_);
-    }
+HostDoor::HostDoor(HostTransport& transport, Options options)
+    : transport_(transport), options_(std::move(options)), silence_(shortest_silence) {
+    if (!options_.listen.empty()) port_ = transport_.listen(options_.listen, options_.keys);
     if (!options_.join.empty()) dial(std::chrono::steady_clock::now());
 }
 
@@ -50,8 +45,8 @@ void HostDoor::dial(Time now) {
     heard_ = dialled_ = now;
     next_join_ = {};
     try {
-        launcher_.emplace(context_, options_.join, options_.launcher, Caller::Handshakes::noted);
-    } catch (const SocketError& error) {
+        launcher_ = transport_.connect(options_.join, options_.launcher, Handshakes::noted);
+    } catch (const LineError& error) {
         if (error.out_of_descriptors()) return;  // later, then
         throw Error(options_.join, std::string("can't be dialled: ") + error.what());
     }
@@ -126,7 +121,7 @@ std::optional<Frames> HostDoor::receive(Time now) {
 std::optional<Frames> HostDoor::from_anyone(Time now) {
     if (port_)
         if (auto frames = port_->receive()) {
-            key_ = frames->back().peer_key();
+            key_ = port_->key();
             return frames;
         }
     key_ = options_.launcher ? options_.launcher->theirs.text() : std::string();
@@ -170,7 +165,7 @@ bool HostDoor::send_at_once(const std::string& route, Frames& frames) {
     if (route == launcher_route) return launcher_ && launcher_->send(frames);
     if (!port_) return false;
     frames.emplace(frames.begin(), route);
-    const auto result = port_->try_send(frames);
+    const auto result = port_->send(frames);
     if (result == SendResult::sent) return true;
     frames.erase(frames.begin());
     gone_ = result == SendResult::peer_is_gone;
@@ -269,12 +264,11 @@ const HostDoor::Tally& HostDoor::tally() {
 }
 
 void HostDoor::let_in() {
-    if (keeper_) keeper_->tick();
+    if (port_) port_->let_in();
 }
 
 void HostDoor::watch(Poll& poll) const {
-    if (keeper_) keeper_->watch(poll);
-    if (port_) poll.add(*port_);
+    if (port_) port_->watch(poll);
     if (launcher_) launcher_->watch(poll);
 }
 

@@ -5,17 +5,15 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/base/log_entry.hpp"
+#include "transport/lines/host_transport.hpp"
+#include "transport/lines/paced_line.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/wire/pass.hpp"
-#include "transport/zmq/caller.hpp"
-#include "transport/zmq/doorkeeper.hpp"
-#include "transport/zmq/handshake.hpp"
-#include "transport/zmq/paced_line.hpp"
-#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
@@ -28,14 +26,14 @@ public:
         std::string join;    // of a launcher; empty: none is dialled
         std::string name;    // under which it joins
         std::uint64_t process = 0;
-        std::optional<Pass> pass{};              // by which it proves that it belongs there; to be had when it joins
-        std::optional<Doorkeeper::Keys> keys{};  // of its port; none: who comes in is asked for none
-        std::optional<LineKeys> launcher{};      // to the launcher that it dials; none: without
+        std::optional<Pass> pass{};          // by which it proves that it belongs there; to be had when it joins
+        std::optional<DoorKeys> keys{};      // of its port; none: who comes in is asked for none
+        std::optional<LineKeys> launcher{};  // to the launcher that it dials; none: without
         std::chrono::milliseconds line_life = usual_line_life;  // of one with keys
         std::function<void(const LogEntry&)> log = [](const LogEntry&) {};
     };
     /// Throws Error when the port can't be had.
-    HostDoor(const SocketContext& context, Options options);
+    HostDoor(HostTransport& transport, Options options);
 
     /// Where it listens, with the port that the system chose; empty: nowhere.
     std::string endpoint() const;
@@ -86,11 +84,10 @@ private:
     void begin_anew(const std::string& route);
     bool send_at_once(const std::string& route, Frames& frames);
 
-    const SocketContext& context_;
+    HostTransport& transport_;
     Options options_;
-    std::optional<Doorkeeper> keeper_;
-    std::optional<Socket> port_;
-    std::optional<Caller> launcher_;
+    std::unique_ptr<HostPort> port_;             // null: nobody can call
+    std::unique_ptr<HostLine> launcher_;         // null: none is dialled, or no line could be had
     int abandoned_ = 0;                          // handshakes with that launcher, in a row
     bool told_trouble_ = false, known_ = false;  // it has made one, some time
     std::string challenge_;                      // of the launcher that was dialled

@@ -24,6 +24,7 @@
 #include "transport/wire/machine.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/zmq/gateway.hpp"
+#include "transport/zmq/zmq_hosts.hpp"
 
 namespace lightnet {
 
@@ -32,13 +33,13 @@ struct Host::Service {
     static constexpr double lines_per_minute = 300;  // of one kind: a loop of short runs says two in .2 s
     static constexpr double refusals_per_minute = 20;
     using Time = std::chrono::steady_clock::time_point;
+    std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
     Options options;
     const Registry& registry;
     LogBounds log_bounds{lines_per_minute}, refusals{refusals_per_minute};
     BlobCache cache;
     Machine machine = this_machine();
     std::uint64_t process = process_number();
-    std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
     HostRights rights;
     HostDoor door;
     std::uint64_t broken_packets = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/ip_address.hpp"
+#include "transport/lines/line_error.hpp"
 #include "transport/wire/relay_address.hpp"
 
 namespace lightnet {
@@ -21,9 +22,9 @@ constexpr auto quick_answer = std::chrono::milliseconds(300);
 
 }  // namespace
 
-PeerConnections::PeerConnections(const SocketContext& context, std::string me, Handlers handlers,
+PeerConnections::PeerConnections(HostTransport& transport, std::string me, Handlers handlers,
                                  std::chrono::milliseconds line_life)
-    : context_(context), me_(std::move(me)), handlers_(std::move(handlers)), line_life_(line_life) {}
+    : transport_(transport), me_(std::move(me)), handlers_(std::move(handlers)), line_life_(line_life) {}
 
 PeerConnections::Peer& PeerConnections::peer(const std::string& host) {
     const auto [found, fresh] = peers_.try_emplace(host);
@@ -31,7 +32,7 @@ PeerConnections::Peer& PeerConnections::peer(const std::string& host) {
     if (!fresh) return to;
     try {
         if (calls_directly(me_, host)) open(host, to);
-    } catch (const SocketError&) {  // out of descriptors, say: the launcher has a connection already
+    } catch (const LineError&) {  // out of descriptors, say: the launcher has a connection already
     }
     to.relayed = !to.line;
     return to;
@@ -39,7 +40,7 @@ PeerConnections::Peer& PeerConnections::peer(const std::string& host) {
 
 void PeerConnections::open(const std::string& host, Peer& to) {
     to.line.reset();  // first: there may be no descriptors for both
-    to.line.emplace(context_, host, handlers_.keys(host));
+    to.line = transport_.connect(host, handlers_.keys(host));
     const auto parts = tcp_endpoint(host);
     if (const auto heard = heard_.find(parts ? parts->host : host); heard != heard_.end()) to.line->hear(heard->second);
     to.paced.restart();
@@ -117,7 +118,7 @@ void PeerConnections::renew_old(const std::string& host, Peer& to, Time now) {
     if (now - to.opened <= line_life_ || !handlers_.keys(host)) return;
     try {
         open(host, to);
-    } catch (const SocketError&) {  // out of descriptors, say
+    } catch (const LineError&) {  // out of descriptors, say
         to.relayed = true;
     }
 }
@@ -148,7 +149,8 @@ void PeerConnections::look_whether_silent(const std::string& host, Peer& to, Tim
 }
 
 bool PeerConnections::is_quick(const Peer& to) const {
-    return to.line && !to.relayed && !to.slow && to.paced.window() >= quick_window && !to.line->answering_at().empty();
+    return to.line && !to.relayed && !to.slow && to.paced.window() >= quick_window && to.line->is_open_to_places() &&
+           !to.line->answering_at().empty();
 }
 
 void PeerConnections::tell_quick() const {

@@ -4,17 +4,16 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/network/graph/plan.hpp"
+#include "transport/lines/host_transport.hpp"
+#include "transport/lines/line_book.hpp"
+#include "transport/lines/paced_line.hpp"
 #include "transport/wire/lease.hpp"
-#include "transport/zmq/caller.hpp"
-#include "transport/zmq/line_book.hpp"
-#include "transport/zmq/paced_line.hpp"
-#include "transport/zmq/poll.hpp"
-#include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
@@ -32,7 +31,7 @@ public:
         std::function<void(LineBook::Entries, std::size_t hosts)> quick = [](auto&&, auto) {};
     };
     /// `me`: this host, as in plans.
-    PeerConnections(const SocketContext& context, std::string me, Handlers handlers,
+    PeerConnections(HostTransport& transport, std::string me, Handlers handlers,
                     std::chrono::milliseconds line_life = usual_line_life);
     PeerConnections(const PeerConnections&) = delete;
     PeerConnections& operator=(const PeerConnections&) = delete;
@@ -54,8 +53,8 @@ public:
 
 private:
     struct Peer {
-        std::optional<Caller> line{};  // none could be had, or may be
-        bool greeted = false;          // doors greet each connection with an empty message: the first is expected
+        std::unique_ptr<HostLine> line{};  // none could be had, or may be
+        bool greeted = false;              // doors greet each connection with an empty message: the first is expected
         Time opened{};
         bool relayed = false;                // its host can't be reached from here
         std::optional<Time> unreachable{};   // since when
@@ -76,7 +75,7 @@ private:
     void renew_old(const std::string& host, Peer& to, Time now);
     void look_whether_reachable(const std::string& host, Peer& to, Time now);
 
-    const SocketContext& context_;
+    HostTransport& transport_;
     std::string me_;
     Handlers handlers_;
     std::chrono::milliseconds line_life_;

@@ -5,7 +5,7 @@
 #include "core/base/error.hpp"
 #include "transport/launcher/key_trouble.hpp"
 #include "transport/wire/packet.hpp"
-#include "transport/zmq/poll.hpp"
+#include "transport/zmq/zmq_hosts.hpp"
 
 namespace lightnet {
 namespace {
@@ -16,7 +16,7 @@ using packet::Type;
 
 struct Asked {
     AskedHost host;
-    Caller line;
+    std::unique_ptr<HostLine> line;
     std::optional<Handshake> seen{};
     int abandoned = 0;
     bool sent = false, all = false;
@@ -36,16 +36,16 @@ struct Asked {
     }
 
     void look() {
-        line.tick(Clock::now());
-        if (const auto handshake = line.look_at_handshake()) {
+        line->tick(Clock::now());
+        if (const auto handshake = line->look_at_handshake()) {
             seen = handshake;
             abandoned = *seen == Handshake::abandoned ? abandoned + 1 : 0;
         }
         if (!sent) {
             auto frames = frames_of(packet::pack(Type::status, 0, {}));
-            sent = line.send(frames);
+            sent = line->send(frames);
         }
-        while (auto frames = line.receive()) {
+        while (auto frames = line->receive()) {
             if (frames->size() != 2) continue;  // the greeting
             const auto header = packet::read_header(bytes_of((*frames)[0]), bytes_of((*frames)[1]));
             const auto fields = packet::unpack_fields(bytes_of((*frames)[1]));
@@ -58,7 +58,7 @@ struct Asked {
 
 }  // namespace
 
-HostAnswer no_answer(const AskedHost& host, const Caller& line, std::optional<Handshake> seen, int abandoned) {
+HostAnswer no_answer(const AskedHost& host, const HostLine& line, std::optional<Handshake> seen, int abandoned) {
     HostAnswer answer{host.endpoint, false, host.endpoint, "does not answer", {}, {}, {}};
     answer.answers = false;
     const bool by_keys =
@@ -75,28 +75,28 @@ HostAnswer no_answer(const AskedHost& host, const Caller& line, std::optional<Ha
 }
 
 std::vector<HostAnswer> ask_state(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience) {
-    const SocketContext context;
+    const auto transport = zmq_hosts();
     std::vector<Asked> asked;
     for (const auto& host : hosts) {
         if (std::any_of(asked.begin(), asked.end(),
                         [&](const auto& one) { return one.host.endpoint == host.endpoint; }))
             continue;
         try {
-            asked.push_back({host, Caller(context, host.endpoint, host.keys, Caller::Handshakes::noted)});
-        } catch (const SocketError& error) {
+            asked.push_back({host, transport->connect(host.endpoint, host.keys, Handshakes::noted)});
+        } catch (const LineError& error) {
             throw Error(host.endpoint, std::string("can't be called: ") + error.what());
         }
     }
     const auto end = Clock::now() + patience;
     while (Clock::now() < end && !std::all_of(asked.begin(), asked.end(), [](const auto& one) { return one.all; })) {
         Poll poll;
-        for (const auto& one : asked) one.line.watch(poll);
+        for (const auto& one : asked) one.line->watch(poll);
         poll.wait(std::chrono::milliseconds(5));
         for (auto& one : asked) one.look();
     }
     std::vector<HostAnswer> answers;
     for (auto& one : asked) {
-        if (one.answers.empty()) one.answers.push_back(no_answer(one.host, one.line, one.seen, one.abandoned));
+        if (one.answers.empty()) one.answers.push_back(no_answer(one.host, *one.line, one.seen, one.abandoned));
         answers.insert(answers.end(), one.answers.begin(), one.answers.end());
     }
     return answers;

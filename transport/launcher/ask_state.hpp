@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "transport/keys/key.hpp"
+#include "transport/lines/host_transport.hpp"
 #include "transport/wire/machine.hpp"
-#include "transport/zmq/caller.hpp"
 
 namespace lightnet {
 
@@ -38,7 +38,7 @@ struct AskedHost {
 };
 
 /// What there is to say of a host that has not answered; `abandoned`: handshakes, in a row.
-HostAnswer no_answer(const AskedHost& host, const Caller& line, std::optional<Handshake> seen, int abandoned);
+HostAnswer no_answer(const AskedHost& host, const HostLine& line, std::optional<Handshake> seen, int abandoned);
 
 /// Asks all of them together, each once. One that does not answer within `patience` has a state that begins with "does
 /// not answer", or says what is wrong with keys.

@@ -23,6 +23,8 @@
 
 namespace lightnet {
 
+class HostTransport;
+
 /// One host of a run, for display.
 struct HostState {
     std::string name;    // as in plans
@@ -63,6 +65,7 @@ public:
         };  // does `plan` give another now, though nobody came or went?
         std::function<void(const std::string&)> say = [](const std::string&) {};
         std::function<void(const std::string&)> warn{};  // of what a user should look at; empty: as `say`
+        std::shared_ptr<HostTransport> transport{};      // to hosts; null: by ZeroMQ
     };
     explicit Cluster(Options options);
     /// What `call()` is told of whoever it calls.

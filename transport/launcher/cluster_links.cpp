@@ -7,8 +7,8 @@
 #include "core/run/assembly/fingerprint.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/launcher/own_host.hpp"
+#include "transport/lines/poll.hpp"
 #include "transport/places/descriptors.hpp"
-#include "transport/zmq/poll.hpp"
 
 namespace lightnet {
 namespace {
@@ -31,15 +31,17 @@ Pass pass_for_joiners(const Cluster::Options& options) {
 
 Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of(options)) {
     if (!options.warn) options.warn = options.say;
+    if (!options.transport) options.transport = zmq_hosts(context);
     const auto say_so = [this](const std::string& text) { say_of_stranger(text); };
     plan.places_of.resize(options.job.graph.nodes.size());
     constexpr std::size_t per_host = 5;  // two sockets with a connection each, and what watches one
     want_descriptors(per_host * options.endpoints.size(),
                      "a run on " + std::to_string(options.endpoints.size()) + " hosts");
     if (!options.listen.empty() && options.join_keys)
-        joiners.emplace(*context, options.listen, JoinListener::Door{options.key.value(), *options.join_keys, say_so});
+        joiners.emplace(*options.transport, options.listen,
+                        JoinListener::Door{options.key.value(), *options.join_keys, say_so});
     else if (!options.listen.empty())
-        joiners.emplace(*context, options.listen, pass_for_joiners(options));
+        joiners.emplace(*options.transport, options.listen, pass_for_joiners(options));
     for (const auto& endpoint : options.endpoints) {
         const auto key = options.host_keys.find(endpoint);
         call(endpoint, key == options.host_keys.end() ? HostKey() : key->second);
@@ -53,7 +55,7 @@ Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of
 void Cluster::Links::call(const std::string& endpoint, const HostKey& key) {
     if (find(endpoint)) return;
     const auto keys = key ? std::optional(LineKeys{options.key.value(), *key}) : std::nullopt;
-    add(endpoint, std::make_unique<CalledConnection>(*context, endpoint, keys), key);
+    add(endpoint, std::make_unique<CalledConnection>(*options.transport, endpoint, keys), key);
 }
 
 // Others are told its key before it can ask them anything.

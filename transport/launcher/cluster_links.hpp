@@ -18,7 +18,7 @@
 #include "transport/launcher/join_listener.hpp"
 #include "transport/launcher/relays.hpp"
 #include "transport/launcher/remote_host.hpp"
-#include "transport/zmq/socket.hpp"
+#include "transport/zmq/zmq_hosts.hpp"
 
 namespace lightnet {
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "transport/lines/line_error.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -9,9 +11,9 @@ constexpr auto old_line_lasts = std::chrono::seconds(10);  // for replies that a
 
 }  // namespace
 
-CalledConnection::CalledConnection(const SocketContext& context, std::string endpoint, std::optional<LineKeys> keys)
-    : context_(context), endpoint_(std::move(endpoint)), keys_(std::move(keys)) {
-    work_.line.emplace(context_, endpoint_, keys_, Caller::Handshakes::noted);
+CalledConnection::CalledConnection(HostTransport& transport, std::string endpoint, std::optional<LineKeys> keys)
+    : transport_(transport), endpoint_(std::move(endpoint)), keys_(std::move(keys)) {
+    work_.line = transport_.connect(endpoint_, keys_, Handshakes::noted);
     open(files_);
 }
 
@@ -27,10 +29,9 @@ bool CalledConnection::open(Lane& lane) {
     if (endpoint.empty()) return false;
     try {
         lane = {};
-        lane.line.emplace(context_, endpoint, keys_,
-                          &lane == &files_ ? Caller::Handshakes::ignored : Caller::Handshakes::noted);
+        lane.line = transport_.connect(endpoint, keys_, &lane == &files_ ? Handshakes::ignored : Handshakes::noted);
         return true;
-    } catch (const SocketError&) {  // out of descriptors, say
+    } catch (const LineError&) {  // out of descriptors, say
         lane = {};
         return false;
     }
@@ -73,7 +74,7 @@ bool CalledConnection::send_on_next(Frames& frames) {
 
 bool CalledConnection::has_old(std::chrono::steady_clock::time_point now) {
     if (old_.line && now - old_since_ > old_line_lasts) old_ = {};
-    return old_.line.has_value();
+    return old_.line != nullptr;
 }
 
 void CalledConnection::renew() {
@@ -89,7 +90,7 @@ void CalledConnection::watch(Poll& poll) const {
 
 bool JoinedConnection::send(Frames& frames, bool) {
     frames.emplace(frames.begin(), route_);
-    if (door_.send(frames)) return true;
+    if (door_.send(frames) == SendResult::sent) return true;
     frames.erase(frames.begin());
     return false;
 }

@@ -3,14 +3,12 @@
 
 #include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "transport/zmq/caller.hpp"
-#include "transport/zmq/handshake.hpp"
-#include "transport/zmq/poll.hpp"
-#include "transport/zmq/socket.hpp"
+#include "transport/lines/host_transport.hpp"
 
 namespace lightnet {
 
@@ -48,8 +46,8 @@ public:
 /// The launcher calls the host at its endpoint. Of several addresses, all lines go to the one that answers first.
 class CalledConnection final : public HostConnection {
 public:
-    /// Throws SocketError.
-    CalledConnection(const SocketContext& context, std::string endpoint, std::optional<LineKeys> keys);
+    /// Throws LineError.
+    CalledConnection(HostTransport& transport, std::string endpoint, std::optional<LineKeys> keys);
     bool send(Frames& frames, bool files) override;
     std::optional<Frames> receive() override;
     void renew() override;
@@ -66,13 +64,13 @@ public:
 private:
     // Doors greet each connection with an empty message: the first is expected, others tell of a cut.
     struct Lane {
-        std::optional<Caller> line{};  // none: the system had none to give; tried again when it is needed
+        std::unique_ptr<HostLine> line{};  // none: the system had none to give; tried again when it is needed
         bool greeted = false;
         std::optional<Frames> receive();
     };
     bool open(Lane& lane);
     std::string endpoint_of(const Lane& lane) const;
-    const SocketContext& context_;
+    HostTransport& transport_;
     std::string endpoint_;
     std::optional<LineKeys> keys_;
     Lane work_, files_, next_, old_;
@@ -82,8 +80,8 @@ private:
 /// The host has dialled in at the launcher's port, and everything goes over that one connection.
 class JoinedConnection final : public HostConnection {
 public:
-    /// `door` is the launcher's socket and must outlive it; `route` leads to the host.
-    JoinedConnection(Socket& door, std::string route) : door_(door), route_(std::move(route)) {}
+    /// `door` is the launcher's port and must outlive it; `route` leads to the host.
+    JoinedConnection(HostPort& door, std::string route) : door_(door), route_(std::move(route)) {}
     bool send(Frames& frames, bool files) override;
     std::optional<Frames> receive() override;
     void renew() override;
@@ -96,7 +94,7 @@ public:
     void arrived(Frames frames);
 
 private:
-    Socket& door_;
+    HostPort& door_;
     std::string route_;
     std::deque<Frames> arrived_;
 };

@@ -16,10 +16,10 @@
 #include "core/run/message/counters.hpp"
 #include "core/run/message/figures.hpp"
 #include "core/run/message/message.hpp"
+#include "transport/lines/message_frame.hpp"
+#include "transport/lines/poll.hpp"
 #include "transport/wire/machine.hpp"
 #include "transport/wire/relay_address.hpp"
-#include "transport/zmq/message_frame.hpp"
-#include "transport/zmq/poll.hpp"
 
 namespace lightnet {
 

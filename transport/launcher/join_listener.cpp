@@ -4,6 +4,7 @@
 
 #include "core/base/ip_address.hpp"
 #include "transport/launcher/cluster.hpp"
+#include "transport/lines/line_error.hpp"
 
 namespace lightnet {
 namespace {
@@ -35,30 +36,25 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-JoinListener::JoinListener(const SocketContext& context, const std::string& endpoint, Pass pass)
-    : JoinListener(context, endpoint, std::optional(std::move(pass)), std::nullopt) {}
+JoinListener::JoinListener(HostTransport& transport, const std::string& endpoint, Pass pass)
+    : JoinListener(transport, endpoint, std::optional(std::move(pass)), std::nullopt) {}
 
-JoinListener::JoinListener(const SocketContext& context, const std::string& endpoint, Door door)
-    : JoinListener(context, endpoint, std::nullopt, std::optional(std::move(door))) {}
+JoinListener::JoinListener(HostTransport& transport, const std::string& endpoint, Door door)
+    : JoinListener(transport, endpoint, std::nullopt, std::optional(std::move(door))) {}
 
-JoinListener::JoinListener(const SocketContext& context, const std::string& endpoint, std::optional<Pass> pass,
+JoinListener::JoinListener(HostTransport& transport, const std::string& endpoint, std::optional<Pass> pass,
                            std::optional<Door> door)
-    : pass_(std::move(pass)), door_(std::move(door)), keeper_(context, keys_of_door()), socket_(door_socket(context)) {
-    keeper_.guard(socket_);
-    listen(socket_, context, endpoint);
-    keeper_.try_out(socket_);
-}
+    : pass_(std::move(pass)), door_(std::move(door)), port_(transport.listen(endpoint, keys_of_door())) {}
 
-std::optional<Doorkeeper::Keys> JoinListener::keys_of_door() {
+std::optional<DoorKeys> JoinListener::keys_of_door() {
     if (!door_) return std::nullopt;
-    return Doorkeeper::Keys{
-        door_->own, [this](const PublicKey& key) { return key == door_->own.open || listed_name(key); },
-        [this](const PublicKey& key, const std::string& address) {
-            if (told_.size() >= most_joined || !told_.insert(key).second) return;
-            door_->say("turned away " + address + ": its key (fingerprint " + key.fingerprint() +
-                       ") is not on the list; to let it in, append this line to that of --allow: " + key.text() +
-                       " NAME");
-        }};
+    return DoorKeys{door_->own, [this](const PublicKey& key) { return key == door_->own.open || listed_name(key); },
+                    [this](const PublicKey& key, const std::string& address) {
+                        if (told_.size() >= most_joined || !told_.insert(key).second) return;
+                        door_->say("turned away " + address + ": its key (fingerprint " + key.fingerprint() +
+                                   ") is not on the list; to let it in, append this line to that of --allow: " +
+                                   key.text() + " NAME");
+                    }};
 }
 
 std::optional<std::string> JoinListener::listed_name(const PublicKey& key) const {
@@ -68,9 +64,9 @@ std::optional<std::string> JoinListener::listed_name(const PublicKey& key) const
 }
 
 // DECISIONS: rights-by-key
-JoinListener::Sender JoinListener::sender_of(const Frames& frames) const {
+JoinListener::Sender JoinListener::who_says_it() const {
     if (!door_) return {};
-    const auto key = PublicKey::from(frames.back().peer_key());
+    const auto key = PublicKey::from(port_->key());
     if (!key) return {std::nullopt, {}, Party::stranger};
     if (*key == door_->own.open) return {key, {}, Party::user};
     const auto name = listed_name(*key);
@@ -90,17 +86,12 @@ void JoinListener::look_at_list(const Handlers& handlers) {
         if (host.key && !listed_name(*host.key)) handlers.lost(name, "its key was taken off the list");
 }
 
-void JoinListener::watch(Poll& poll) const {
-    keeper_.watch(poll);
-    poll.add(socket_);
-}
-
 std::uint64_t JoinListener::receive(const Handlers& handlers) {
     look_at_list(handlers);
-    keeper_.tick();
+    port_->let_in();
     std::uint64_t broken = 0;
-    while (auto frames = socket_.receive()) {
-        const auto sender = sender_of(*frames);
+    while (auto frames = port_->receive()) {
+        const auto sender = who_says_it();
         if (!may_say(sender, *frames)) {
             ++broken;
             continue;
@@ -127,7 +118,7 @@ bool JoinListener::control(Frames& frames, const Sender& sender, const Handlers&
     const auto fields = packet::unpack_fields(bytes_of(frames[2]));
     if (!fields) return false;
     const auto route = text_of(frames[0]);
-    if (header->type == Type::join) return take_join(route, *fields, frames[2].peer_address(), sender, handlers);
+    if (header->type == Type::join) return take_join(route, *fields, port_->address(), sender, handlers);
     tell_state(route, handlers.hosts(), !door_ || sender.party == Party::user);
     return true;
 }
@@ -148,7 +139,7 @@ bool JoinListener::take_join(const std::string& route, const Fields& fields, con
         return false;  // a host knows where it listens: no names are looked up for it
     try {
         handlers.call(endpoint, sender.key);
-    } catch (const SocketError&) {  // not an endpoint at all
+    } catch (const LineError&) {  // not an endpoint at all
         return false;
     }
     send(route, Type::joined, Fields{}.set("challenge", challenge_));
@@ -177,7 +168,7 @@ void JoinListener::join(const std::string& route, const Fields& fields, const Se
     auto& known = joined_[*name];
     known.key = sender.key;
     if (!known.connection) {
-        auto connection = std::make_unique<JoinedConnection>(socket_, route);
+        auto connection = std::make_unique<JoinedConnection>(*port_, route);
         known.connection = connection.get();
         handlers.add(*name, std::move(connection), sender.key);
     } else if (known.connection->route() != route) {
@@ -225,7 +216,7 @@ void JoinListener::send(const std::string& route, Type type, const Fields& field
     Frames frames;
     frames.emplace_back(route);
     append(frames, packet::pack(type, 0, fields));
-    socket_.send(frames);
+    port_->send(frames);
 }
 
 }  // namespace lightnet

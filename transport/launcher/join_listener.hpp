@@ -13,9 +13,9 @@
 
 #include "transport/launcher/cluster.hpp"
 #include "transport/launcher/host_connection.hpp"
+#include "transport/lines/host_transport.hpp"
 #include "transport/wire/pass.hpp"
 #include "transport/wire/rights.hpp"
-#include "transport/zmq/doorkeeper.hpp"
 
 namespace lightnet {
 
@@ -33,7 +33,7 @@ public:
         std::function<void(const std::string& name, const std::string& address)> turned_down;
     };
     /// Lets in who proves that he knows `pass`.
-    JoinListener(const SocketContext& context, const std::string& endpoint, Pass pass);
+    JoinListener(HostTransport& transport, const std::string& endpoint, Pass pass);
     /// By keys.
     struct Door {
         KeyPair own;
@@ -42,10 +42,10 @@ public:
     };
     /// Lets in whose key is on the list, and takes his name from there; and who has our own key, who may ask how the
     /// run is.
-    JoinListener(const SocketContext& context, const std::string& endpoint, Door door);
+    JoinListener(HostTransport& transport, const std::string& endpoint, Door door);
 
-    std::string endpoint() const { return socket_.endpoint(); }
-    void watch(Poll& poll) const;
+    std::string endpoint() const { return port_->endpoint(); }
+    void watch(Poll& poll) const { port_->watch(poll); }
     /// Takes in what there is, and gives it to the connections. Returns how many packets were damaged.
     std::uint64_t receive(const Handlers& handlers);
 
@@ -63,11 +63,11 @@ private:
         std::string listed{};  // name
         Party party = Party::host;
     };
-    JoinListener(const SocketContext& context, const std::string& endpoint, std::optional<Pass> pass,
+    JoinListener(HostTransport& transport, const std::string& endpoint, std::optional<Pass> pass,
                  std::optional<Door> door);
-    std::optional<Doorkeeper::Keys> keys_of_door();
+    std::optional<DoorKeys> keys_of_door();
     std::optional<std::string> listed_name(const PublicKey& key) const;
-    Sender sender_of(const Frames& frames) const;
+    Sender who_says_it() const;
     bool may_say(const Sender& sender, const Frames& frames) const;
     void look_at_list(const Handlers& handlers);
     bool control(Frames& frames, const Sender& sender, const Handlers& handlers);
@@ -84,8 +84,7 @@ private:
     std::optional<Pass> pass_;
     std::optional<Door> door_;
     std::set<PublicKey> told_;  // that they were turned away
-    Doorkeeper keeper_;
-    Socket socket_;
+    std::unique_ptr<HostPort> port_;
     std::string challenge_ = random_challenge();
     std::map<std::string, Joined> joined_;         // by name
     std::map<std::string, std::string> by_route_;  // names

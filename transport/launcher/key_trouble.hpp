@@ -5,7 +5,7 @@
 #include <string>
 
 #include "transport/keys/key.hpp"
-#include "transport/zmq/handshake.hpp"
+#include "transport/lines/host_transport.hpp"
 
 namespace lightnet {
 

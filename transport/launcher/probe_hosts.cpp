@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "transport/wire/packet.hpp"
-#include "transport/zmq/poll.hpp"
+#include "transport/zmq/zmq_hosts.hpp"
 
 namespace lightnet {
 namespace {
@@ -21,8 +21,8 @@ std::chrono::nanoseconds wall_time() { return std::chrono::system_clock::now().t
 /// One question after the other at one endpoint.
 class Asker {
 public:
-    Asker(const SocketContext& context, const AskedHost& host, Clock::time_point end)
-        : host_(host), line_(context, host.endpoint, host.keys, Caller::Handshakes::noted), end_(end) {}
+    Asker(HostTransport& transport, const AskedHost& host, Clock::time_point end)
+        : host_(host), line_(transport.connect(host.endpoint, host.keys, Handshakes::noted)), end_(end) {}
 
     struct Trip {
         Fields fields;
@@ -34,7 +34,7 @@ public:
         Fields question;
         if (more > 0) question.set("load", std::string(more, 'x'));
         auto frames = frames_of(packet::pack(Type::status, 0, question));
-        while (!line_.send(frames)) {
+        while (!line_->send(frames)) {
             if (Clock::now() > end_) return std::nullopt;
             wait();
         }
@@ -42,7 +42,7 @@ public:
         const auto begin_wall = wall_time();
         while (Clock::now() < end_) {
             wait();
-            while (auto answer = line_.receive())
+            while (auto answer = line_->receive())
                 if (auto fields = state_in(*answer)) {
                     const std::chrono::nanoseconds taken = Clock::now() - begin;
                     return Trip{std::move(*fields), taken, begin_wall + taken / 2};
@@ -51,15 +51,15 @@ public:
         return std::nullopt;
     }
 
-    HostAnswer no_answer() const { return lightnet::no_answer(host_, line_, seen_, abandoned_); }
+    HostAnswer no_answer() const { return lightnet::no_answer(host_, *line_, seen_, abandoned_); }
 
 private:
     void wait() {
         Poll poll;
-        line_.watch(poll);
+        line_->watch(poll);
         poll.wait(std::chrono::milliseconds(5));
-        line_.tick(Clock::now());
-        const auto handshake = line_.look_at_handshake();
+        line_->tick(Clock::now());
+        const auto handshake = line_->look_at_handshake();
         if (!handshake) return;
         seen_ = handshake;
         abandoned_ = *seen_ == Handshake::abandoned ? abandoned_ + 1 : 0;
@@ -72,15 +72,15 @@ private:
     }
 
     const AskedHost& host_;
-    Caller line_;
+    std::unique_ptr<HostLine> line_;
     std::optional<Handshake> seen_{};
     int abandoned_ = 0;
     Clock::time_point end_;
 };
 
-HostProbe probe(const SocketContext& context, const AskedHost& host, std::chrono::milliseconds patience) {
+HostProbe probe(HostTransport& transport, const AskedHost& host, std::chrono::milliseconds patience) {
     HostProbe found;
-    Asker asker(context, host, Clock::now() + patience);
+    Asker asker(transport, host, Clock::now() + patience);
     for (int i = 0; i < trips; ++i) {
         const auto trip = asker.ask(0);
         if (!trip) {
@@ -106,11 +106,11 @@ HostProbe probe(const SocketContext& context, const AskedHost& host, std::chrono
 }  // namespace
 
 std::vector<HostProbe> probe_hosts(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience) {
-    const SocketContext context;
+    const auto transport = zmq_hosts();
     std::vector<HostProbe> probes;
     for (const auto& host : hosts) try {
-            probes.push_back(probe(context, host, patience));
-        } catch (const SocketError& error) {
+            probes.push_back(probe(*transport, host, patience));
+        } catch (const LineError& error) {
             throw Error(host.endpoint, std::string("can't be called: ") + error.what());
         }
     return probes;

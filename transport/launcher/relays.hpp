@@ -8,9 +8,9 @@
 
 #include "core/run/message/counters.hpp"
 #include "transport/keys/mac.hpp"
+#include "transport/lines/message_frame.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/wire/relay_address.hpp"
-#include "transport/zmq/message_frame.hpp"
 
 namespace lightnet {
 

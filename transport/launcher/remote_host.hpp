@@ -15,10 +15,10 @@
 #include "core/run/message/message.hpp"
 #include "transport/launcher/host_connection.hpp"
 #include "transport/launcher/host_link.hpp"
+#include "transport/lines/paced_line.hpp"
 #include "transport/wire/lease.hpp"
 #include "transport/wire/line_pace.hpp"
 #include "transport/wire/packet.hpp"
-#include "transport/zmq/paced_line.hpp"
 
 namespace lightnet {
 

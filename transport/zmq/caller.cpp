@@ -42,16 +42,12 @@ void Caller::call(const IpAddress& address) {
     called_.reset();
     const TcpEndpoint there{address.text(), parts_.port};
     auto socket = unconnected_asking_socket(*context_, there.text(), keys_);
-    if (const int events = events_to_note()) socket.note_events(*context_, events);
+    // An attempt that is closed has failed; of what was connected it is told otherwise. To note them costs descriptors.
+    const int ends = by_number_ ? 0 : ZMQ_EVENT_CLOSED | ZMQ_EVENT_DISCONNECTED;
+    if (notes_handshakes_ || !by_number_) socket.note_events(*context_, handshake_events() | ends);
     socket.connect(there.text());
     socket_ = std::move(socket);
     called_ = address;
-}
-
-// An attempt that is closed has failed; of what was connected it is told otherwise. To note them costs descriptors.
-int Caller::events_to_note() const {
-    if (!by_number_) return handshake_events() | ZMQ_EVENT_CLOSED | ZMQ_EVENT_DISCONNECTED;
-    return notes_handshakes_ ? handshake_events() : 0;
 }
 
 void Caller::look_at_events(Time now) {

@@ -10,41 +10,37 @@
 #include "core/base/ip_address.hpp"
 #include "transport/address/address_turns.hpp"
 #include "transport/keys/key.hpp"
+#include "transport/lines/poll.hpp"
 #include "transport/zmq/handshake.hpp"
-#include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
 /// A socket that asks (asking_socket()) under an endpoint that may hold a name: all addresses of the name are called in
 /// turn until one answers, and where none does, the name is looked up anew. Never waits. One thread's.
-class Caller {
+class Caller final : public HostLine {
 public:
-    using Time = std::chrono::steady_clock::time_point;
-    enum class Handshakes { noted, ignored };
+    using Handshakes = lightnet::Handshakes;
     /// Without `keys` nothing is encrypted. Throws SocketError for what is no endpoint, or when there are no sockets.
     Caller(const SocketContext& context, std::string endpoint, std::optional<LineKeys> keys,
            Handshakes handshakes = Handshakes::ignored);
 
-    /// Where it is, as others say: tried, too, after what is known here.
-    void hear(std::vector<IpAddress> addresses) { heard_ = std::move(addresses); }
-    /// Calls another address when it is time to. To be called several times a second.
-    void tick(Time now);
-    bool send(Frames& frames) { return socket_ && socket_->send(frames); }
-    std::optional<Frames> receive() { return socket_ ? socket_->receive() : std::nullopt; }
-    /// Somebody has answered, and has room for more.
-    bool can_send() const { return socket_ && socket_->can_send(); }
-    void watch(Poll& poll) const;
-    /// What became of its handshakes, the last one since the last call; none: there was none.
-    std::optional<Handshake> look_at_handshake();
-    /// Where it answers, in numbers; "": the endpoint is a name, and nobody has answered so far.
-    std::string answering_at() const;
-    /// Why nobody answers, as far as the name has to do with it; "": it hasn't.
-    std::string trouble() const;
+    void hear(std::vector<IpAddress> addresses) override { heard_ = std::move(addresses); }
+    /// Calls another address when it is time to.
+    void tick(Time now) override;
+    bool send(Frames& frames) override { return socket_ && socket_->send(frames); }
+    std::optional<Frames> receive() override { return socket_ ? socket_->receive() : std::nullopt; }
+    bool can_send() const override { return socket_ && socket_->can_send(); }
+    void watch(Poll& poll) const override;
+    std::optional<Handshake> look_at_handshake() override;
+    /// "": the endpoint is a name, and nobody has answered so far.
+    std::string answering_at() const override;
+    bool is_open_to_places() const override { return true; }
+    /// As far as the name has to do with it.
+    std::string trouble() const override;
 
 private:
     void call(const IpAddress& address);
-    int events_to_note() const;
     void look_at_events(Time now);
 
     const SocketContext* context_;

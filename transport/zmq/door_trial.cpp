@@ -4,8 +4,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/ip_address.hpp"
+#include "transport/lines/poll.hpp"
 #include "transport/zmq/handshake.hpp"
-#include "transport/zmq/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {

@@ -10,25 +10,18 @@
 #include <vector>
 
 #include "transport/keys/key.hpp"
-#include "transport/zmq/poll.hpp"
+#include "transport/lines/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {
 
 /// Admission control: answers for every connection to the doors of one context whether it may be made (ZeroMQ's
 /// authentication protocol, RFC 27), and turns those away that would be too many or whose key is not known. What comes
-/// in then bears the key of its sender (MessageFrame::peer_key()). Made before the doors are bound, used by their
+/// in then bears the key of its sender (see PeerName). Made before the doors are bound, used by their
 /// thread, and looked after as often as they are: nobody gets in meanwhile.
 class Doorkeeper {
 public:
-    /// Whom it lets in.
-    struct Keys {
-        KeyPair own;  // of the doors
-        std::function<bool(const PublicKey&)> knows;
-        std::function<void(const PublicKey&, const std::string& address)> turned_away = [](auto&, auto&) {};
-        /// Somebody without a key, or who takes the door for another one.
-        std::function<void()> no_key = [] {};
-    };
+    using Keys = DoorKeys;
     /// Without `keys`: everybody, as long as there is room.
     explicit Doorkeeper(const SocketContext& context, std::optional<Keys> keys = std::nullopt);
     Doorkeeper(const Doorkeeper&) = delete;

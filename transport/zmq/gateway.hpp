@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "transport/zmq/poll.hpp"
+#include "transport/lines/poll.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {

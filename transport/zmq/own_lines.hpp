@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "transport/zmq/line_book.hpp"
-#include "transport/zmq/message_frame.hpp"
-#include "transport/zmq/paced_line.hpp"
+#include "transport/lines/line_book.hpp"
+#include "transport/lines/message_frame.hpp"
+#include "transport/lines/paced_line.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {

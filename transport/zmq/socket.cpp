@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <utility>
 #include <zmq.hpp>
 
@@ -14,6 +16,11 @@
 #include "transport/address/listening.hpp"
 #include "transport/places/descriptors.hpp"
 #include "transport/zmq/process_id.hpp"
+
+#if defined(__SANITIZE_THREAD__)
+extern "C" void __tsan_acquire(void*);
+extern "C" void __tsan_release(void*);
+#endif
 
 namespace lightnet {
 namespace {
@@ -77,10 +84,52 @@ ListeningPort open_port(const IpAddress& address, std::uint16_t port) {
     }
 }
 
+// Happens-before, told to the thread sanitizer, which can't see into the library: what a thread did before it sent a
+// message is done when another receives it, or frees its memory.
+#if defined(__SANITIZE_THREAD__)
+char through_sockets;
+void happens_before_receiving() { __tsan_release(&through_sockets); }
+void happens_after_sending() { __tsan_acquire(&through_sockets); }
+#else
+void happens_before_receiving() {}
+void happens_after_sending() {}
+#endif
+
+using Owner = std::shared_ptr<const void>;
+
+void free_owner(void*, void* owner) {
+    happens_after_sending();
+    delete static_cast<Owner*>(owner);
+}
+
+// The library's message of a frame, without a copy where they are many bytes.
+zmq::message_t message_of(const MessageFrame& frame) try {
+    if (!frame.owner()) return zmq::message_t(frame.data(), frame.size());
+    auto owner = std::make_unique<Owner>(frame.owner());
+    zmq::message_t message(const_cast<void*>(frame.data()), frame.size(), free_owner, owner.get());
+    (void)owner.release();
+    return message;
+} catch (const zmq::error_t&) {
+    throw std::bad_alloc();
+}
+
+MessageFrame frame_of(zmq::message_t&& message) {
+    if (message.size() <= MessageFrame::most_small) return MessageFrame(message.to_string_view());
+    auto owner = std::make_shared<zmq::message_t>(std::move(message));
+    auto* const data = owner->data();
+    const auto size = owner->size();
+    return {std::move(owner), data, size};
+}
+
+// The library throws where there is none; that is usual, and asked for each message.
+const char* property(zmq::message_t& message, const char* name) {
+    const char* text = zmq_msg_gets(message.handle(), name);
+    return text ? text : "";
+}
+
 }  // namespace
 
-SocketError::SocketError(int number) : std::runtime_error(zmq_strerror(number)), number_(number) {}
-bool SocketError::out_of_descriptors() const { return number_ == EMFILE || number_ == ENFILE; }
+SocketError::SocketError(int number) : LineError(number, zmq_strerror(number)) {}
 
 // DECISIONS: threads-are-tried
 // The library starts its threads with the first socket, and ends the process when it gets none: they are asked for
@@ -210,7 +259,9 @@ SendResult Socket::try_send(Frames& frames) try {
     for (auto& frame : frames) {
         const auto more = &frame == &frames.back() ? zmq::send_flags::none : zmq::send_flags::sndmore;
         // only the first can be refused
-        if (!socket_->send(frame.library(), more | zmq::send_flags::dontwait)) return SendResult::line_is_full;
+        auto message = message_of(frame);
+        if (!socket_->send(message, more | zmq::send_flags::dontwait)) return SendResult::line_is_full;
+        frame = MessageFrame();
     }
     return SendResult::sent;
 } catch (const zmq::error_t& error) {
@@ -219,17 +270,20 @@ SendResult Socket::try_send(Frames& frames) try {
     throw SocketError(error.num());
 }
 
-std::optional<Frames> Socket::receive() try {
+std::optional<Frames> Socket::receive(PeerName* sender) try {
     Frames frames;
     quiet_ = false;
-    do {
-        MessageFrame frame;
-        if (!socket_->recv(frame.library(), zmq::recv_flags::dontwait)) {
+    for (bool more = true; more;) {
+        zmq::message_t message;
+        if (!socket_->recv(message, zmq::recv_flags::dontwait)) {
             quiet_ = true;
             return std::nullopt;
         }
-        frames.push_back(std::move(frame));
-    } while (frames.back().library().more());
+        more = message.more();
+        if (sender && !more)
+            sender->key = property(message, "User-Id"), sender->address = property(message, "Peer-Address");
+        frames.push_back(frame_of(std::move(message)));
+    }
     happens_after_sending();
     return frames;
 } catch (const zmq::error_t& error) {

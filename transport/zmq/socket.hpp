@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "transport/address/resolver.hpp"
 #include "transport/keys/key.hpp"
-#include "transport/zmq/high_water.hpp"
-#include "transport/zmq/message_frame.hpp"
+#include "transport/lines/high_water.hpp"
+#include "transport/lines/host_transport.hpp"
+#include "transport/lines/line_error.hpp"
 
 namespace zmq {
 class context_t;
@@ -21,19 +21,11 @@ namespace lightnet {
 
 class ListeningPort;
 
-/// What became of a message.
-enum class SendResult { sent, line_is_full, peer_is_gone };
-
-/// What the library refuses: an endpoint that is none or is taken, or one socket more.
-class SocketError : public std::runtime_error {
+/// What the library refuses.
+class SocketError : public LineError {
 public:
     /// Of an error number of the library.
     explicit SocketError(int number);
-    /// The process, or the system, has no more descriptors.
-    bool out_of_descriptors() const;
-
-private:
-    int number_;
 };
 
 /// What the sockets of a process belong to; outlives them. Any thread.
@@ -60,12 +52,18 @@ struct SocketEvent {
     int number = 0, value = 0;
 };
 
+/// Whom a message came from.
+struct PeerName {
+    std::string key;      // public, as text; empty: it came without
+    std::string address;  // of the network; empty: it came from none
+};
+
 /// Never blocks, never lingers. One thread's.
-class Socket {
+class Socket final : public Waitable {
 public:
     /// `type` is the library's number. See the functions below. Throws SocketError.
     Socket(const SocketContext& context, int type);
-    ~Socket();
+    ~Socket() override;
     Socket(Socket&& other) noexcept;
     Socket& operator=(Socket&& other) noexcept;
 
@@ -83,15 +81,11 @@ public:
     bool send(Frames& frames) { return try_send(frames) == SendResult::sent; }
     /// Sends all frames or none, and says why not.
     SendResult try_send(Frames& frames);
-    /// One whole message, if there is one.
-    std::optional<Frames> receive();
-    /// Is there one?
-    bool readable() const;
-    /// There was none when it was last looked at, and nothing was done with it since: descriptor() is readable when
-    /// there may be one again.
-    bool quiet() const { return quiet_; }
-    /// To wait at. Only a quiet socket tells by it.
-    int descriptor() const;
+    /// One whole message, if there is one. `sender`: is told whom it came from; may be null.
+    std::optional<Frames> receive(PeerName* sender = nullptr);
+    bool readable() const override;
+    bool quiet() const override { return quiet_; }
+    int descriptor() const override;
     /// A peer is there, and has room for more.
     bool can_send() const;
     /// Encrypts what passes, and shows who we are, or asks who comes (CURVE, RFC 26). Before bind() and connect().

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "transport/lines/poll.hpp"
 #include "transport/zmq/gateway.hpp"
 #include "transport/zmq/own_lines.hpp"
-#include "transport/zmq/poll.hpp"
 
 namespace lightnet {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "core/run/message/carrier.hpp"
+#include "transport/lines/frame_queue.hpp"
+#include "transport/lines/line_book.hpp"
 #include "transport/places/place_transport.hpp"
-#include "transport/zmq/frame_queue.hpp"
-#include "transport/zmq/line_book.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "transport/lines/frame_queue.hpp"
+#include "transport/lines/line_book.hpp"
 #include "transport/places/place_transport.hpp"
-#include "transport/zmq/frame_queue.hpp"
-#include "transport/zmq/line_book.hpp"
 #include "transport/zmq/socket.hpp"
 
 namespace lightnet {

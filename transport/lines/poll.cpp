@@ -1,16 +1,19 @@
-#include "transport/zmq/poll.hpp"
+#include "transport/lines/poll.hpp"
 
 #include <poll.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
+
+#include "transport/lines/line_error.hpp"
 
 namespace lightnet {
 
 Poll::Poll() = default;
 Poll::~Poll() = default;
 
-void Poll::add(const Socket& socket) {
+void Poll::add(const Waitable& socket) {
     items_.push_back({&socket, false});
     descriptors_.push_back({socket.descriptor(), POLLIN, 0});
 }
@@ -58,7 +61,7 @@ void Poll::wake_up() {
 bool Poll::look_at_descriptors(std::chrono::milliseconds most) {
     const int told = poll(descriptors_.data(), descriptors_.size(), static_cast<int>(most.count()));
     if (told < 0 && errno == EINTR) return true;
-    if (told < 0) throw SocketError(errno);
+    if (told < 0) throw LineError(errno, std::strerror(errno));
     bool found = false;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         auto& [socket, readable, queue] = items_[i];

@@ -1,4 +1,4 @@
-#include "transport/zmq/frame_queue.hpp"
+#include "transport/lines/frame_queue.hpp"
 
 #include <utility>
 

@@ -6,9 +6,9 @@
 #include <mutex>
 #include <optional>
 
+#include "transport/lines/high_water.hpp"
+#include "transport/lines/message_frame.hpp"
 #include "transport/places/wakeup.hpp"
-#include "transport/zmq/high_water.hpp"
-#include "transport/zmq/message_frame.hpp"
 
 namespace lightnet {
 

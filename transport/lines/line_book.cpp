@@ -1,4 +1,4 @@
-#include "transport/zmq/line_book.hpp"
+#include "transport/lines/line_book.hpp"
 
 #include <utility>
 

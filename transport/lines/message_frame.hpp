@@ -3,8 +3,7 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,10 +11,6 @@
 
 #include "core/run/message/message.hpp"
 #include "transport/wire/packet.hpp"
-
-namespace zmq {
-class message_t;
-}
 
 namespace lightnet {
 
@@ -29,25 +24,26 @@ public:
     /// Hands a message over as it is, within the process: the frame owns it, so it can't leak, whatever becomes of the
     /// frame. See take_message().
     explicit MessageFrame(Message&& message);
-    ~MessageFrame();
+    /// Memory of others, that goes with the last `owner`.
+    MessageFrame(std::shared_ptr<const void> owner, void* data, std::size_t size) noexcept;
     MessageFrame(MessageFrame&& other) noexcept;
     MessageFrame& operator=(MessageFrame&& other) noexcept;
 
     /// Another frame of the same bytes, which both own: no copy if they are many.
-    MessageFrame shared();
-    std::size_t size() const;
-    void* data();
-    const void* data() const;
-    /// The network address that it came from; empty: not from a network.
-    std::string peer_address() const;
-    /// The public key, as text, of whom it came from; empty: it came without.
-    std::string_view peer_key() const;
-    /// The library's own, for sockets.
-    zmq::message_t& library();
+    MessageFrame shared() const;
+    std::size_t size() const { return size_; }
+    void* data() { return owner_ ? data_ : small_.data(); }
+    const void* data() const { return owner_ ? data_ : small_.data(); }
+    /// Of its memory, which stays where it is as long as there is one; null: these are few bytes, to be copied.
+    const std::shared_ptr<const void>& owner() const { return owner_; }
+    /// So many bytes are copied rather than owned.
+    static constexpr std::size_t most_small = 32;
 
 private:
-    const zmq::message_t& library() const;
-    alignas(std::uint64_t) std::array<std::byte, 64> message_;  // a zmq::message_t
+    std::shared_ptr<const void> owner_;
+    void* data_ = nullptr;
+    std::size_t size_ = 0;
+    std::array<std::byte, most_small> small_;
 };
 
 /// The frames of one message, route first.
@@ -68,10 +64,5 @@ void append(Frames& frames, packet::Packet packet);
 
 std::span<const std::byte> bytes_of(const MessageFrame& frame);
 std::string text_of(const MessageFrame& frame);
-
-/// Happens-before, told to the thread sanitizer, which can't see into the library: what a thread did before it sent a
-/// message is done when another receives it, or frees its memory.
-void happens_before_receiving();
-void happens_after_sending();
 
 }  // namespace lightnet

@@ -1,4 +1,4 @@
-#include "transport/zmq/paced_line.hpp"
+#include "transport/lines/paced_line.hpp"
 
 #include <algorithm>
 #include <cstring>

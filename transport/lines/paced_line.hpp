@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
+#include "transport/lines/message_frame.hpp"
 #include "transport/wire/line_pace.hpp"
 #include "transport/wire/packet.hpp"
-#include "transport/zmq/message_frame.hpp"
 
 namespace lightnet {
 
