@@ -5,16 +5,16 @@
 
 namespace lightnet {
 
-template <class Columns>
-void GlossySurfaces<Columns>::add(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing,
-                                  std::uint8_t lobes) {
+template <class Seen>
+void GlossySurfaces<Seen>::add(std::uint32_t who, const ColumnShape& shape, const Hit& hit, Vec3 outgoing,
+                               std::uint8_t lobes) {
     lobes_[size()] = lobes;
     add_point(who, shape, hit, outgoing);
 }
 
 // As value_of_any() and sample_of_any() of Bsdf begin.
-template <class Columns>
-struct GlossySurfaces<Columns>::Facing {
+template <class Seen>
+struct GlossySurfaces<Seen>::Facing {
     GlossySurfaces& at;
 
     [[gnu::always_inline]] void work() {
@@ -36,9 +36,9 @@ struct GlossySurfaces<Columns>::Facing {
     }
 };
 
-template <class Columns>
-void GlossySurfaces<Columns>::find_bsdfs() {
-    using Model = typename Columns::Model;
+template <class Seen>
+void GlossySurfaces<Seen>::find_bsdfs() {
+    using Model = typename Seen::Model;
     for (std::size_t i = 0; i < size(); ++i)
         if (const Bsdf::Model* model = shapes_[i]->model) columns_.set(i, *std::get_if<Model>(model));
     look_up([&](std::size_t i, const TexturePlace& place) {
@@ -49,16 +49,16 @@ void GlossySurfaces<Columns>::find_bsdfs() {
     for (std::size_t i = 0; i < size(); ++i) columns_.see(i, seen_.z[i], lobes_[i]);
 }
 
-template <class Columns>
-Bsdf GlossySurfaces<Columns>::bsdf(std::size_t i) const {
+template <class Seen>
+Bsdf GlossySurfaces<Seen>::bsdf(std::size_t i) const {
     Bsdf bsdf(Frame::around(shading_[i]), normal_[i], columns_.model(i));
     if (one_sided_[i]) bsdf.make_one_sided();
     return bsdf;
 }
 
 // As value_of_any() of Bsdf goes on.
-template <class Columns>
-struct GlossySurfaces<Columns>::Arriving {
+template <class Seen>
+struct GlossySurfaces<Seen>::Arriving {
     GlossySurfaces& at;
 
     [[gnu::always_inline]] void work() {
@@ -74,9 +74,9 @@ struct GlossySurfaces<Columns>::Arriving {
 };
 
 // As ray_to_lamp(). `whole`: nothing is shared.
-template <class Columns>
+template <class Seen>
 template <bool whole>
-struct GlossySurfaces<Columns>::Looking {
+struct GlossySurfaces<Seen>::Looking {
     GlossySurfaces& at;
     Heuristic heuristic;
 
@@ -96,9 +96,9 @@ struct GlossySurfaces<Columns>::Looking {
     }
 };
 
-template <class Columns>
+template <class Seen>
 template <bool whole>
-const RaysToLamp& GlossySurfaces<Columns>::look(const LightSamples& lamps, Heuristic heuristic) {
+const RaysToLamp& GlossySurfaces<Seen>::look(const LightSamples& lamps, Heuristic heuristic) {
     lamps_ = lamps;
     Arriving arriving{*this};
     work_in_lanes(arriving);
@@ -108,32 +108,33 @@ const RaysToLamp& GlossySurfaces<Columns>::look(const LightSamples& lamps, Heuri
     return rays_;
 }
 
-template <class Columns>
-const RaysToLamp& GlossySurfaces<Columns>::look_at(const LightSamples& lamps, Heuristic heuristic) {
+template <class Seen>
+const RaysToLamp& GlossySurfaces<Seen>::look_at(const LightSamples& lamps, Heuristic heuristic) {
     return look<false>(lamps, heuristic);
 }
 
-template <class Columns>
-const RaysToLamp& GlossySurfaces<Columns>::look_at_whole(const LightSamples& lamps) {
+template <class Seen>
+const RaysToLamp& GlossySurfaces<Seen>::look_at_whole(const LightSamples& lamps) {
     return look<true>(lamps, Heuristic::automatic);
 }
 
-template <class Columns>
-struct GlossySurfaces<Columns>::Proposing {
+template <class Seen>
+struct GlossySurfaces<Seen>::Proposing {
     GlossySurfaces& at;
 
     [[gnu::always_inline]] void work() {
         for (std::size_t i = 0; i < at.count_; ++i) {
-            const Proposal proposal = at.columns_.propose(i, at.seen_[i], at.choices_[i], at.numbers_[i]);
+            const Proposal proposal =
+                at.columns_[i].template propose<true>(at.seen_[i], at.choices_[i], at.numbers_[i]);
             at.lit_.set(i, proposal.incoming);
             at.proposed_[i] = proposal.lobe;
         }
     }
 };
 
-// As sample_of_any() of Bsdf, and the models' sample(), end.
-template <class Columns>
-struct GlossySurfaces<Columns>::Finishing {
+// As sample_of_any() of Bsdf, and sample_seen(), end.
+template <class Seen>
+struct GlossySurfaces<Seen>::Finishing {
     GlossySurfaces& at;
 
     [[gnu::always_inline]] void work() {
@@ -141,22 +142,22 @@ struct GlossySurfaces<Columns>::Finishing {
             const Vec3 incoming = at.lit_[i];
             const bool specular = at.proposed_[i] == lobe::specular;
             const BsdfValue found = at.columns_.value(i, at.seen_[i], incoming);
-            const Rgb rough = found.value / found.pdf, smooth = at.columns_.specular_weight(i);
+            const Rgb rough = found.value / found.pdf, smooth = at.columns_[i].mirrored(at.choices_[i]);
             const float height = at.turned_[i] != 0 ? -incoming.z : incoming.z;
             const Frame frame{at.across_[i], at.along_[i], at.up_[i]};
             const Vec3 direction = normalize(frame.to_world({incoming.x, incoming.y, height}));
             const float side = height > 0 ? 1 : 0, true_side = dot(direction, at.normal_[i]) > 0 ? 1 : 0;
             at.steps_.incoming.set(i, direction);
-            at.steps_.weight.set(
-                i, {specular ? smooth.r : rough.r, specular ? smooth.g : rough.g, specular ? smooth.b : rough.b});
+            const Rgb weight = chosen(specular, smooth, rough);
+            at.steps_.weight.set(i, {weight.r, weight.g, weight.b});
             at.steps_.pdf[i] = found.pdf;
             at.leaks_[i] = side != true_side;
         }
     }
 };
 
-template <class Columns>
-const typename GlossySurfaces<Columns>::Steps& GlossySurfaces<Columns>::sample() {
+template <class Seen>
+const typename GlossySurfaces<Seen>::Steps& GlossySurfaces<Seen>::sample() {
     Proposing proposing{*this};
     work_in_lanes(proposing);
     for (std::size_t i = 0; i < size(); ++i) columns_.arrive(i, lit_.z[i]);
@@ -173,10 +174,10 @@ const typename GlossySurfaces<Columns>::Steps& GlossySurfaces<Columns>::sample()
     return steps_;
 }
 
-template class GlossySurfaces<CoatedColumns<GgxLaw>>;
-template class GlossySurfaces<CoatedColumns<BeckmannLaw>>;
-template class GlossySurfaces<MetalColumns<GgxLaw>>;
-template class GlossySurfaces<MetalColumns<BeckmannLaw>>;
-template class GlossySurfaces<PrincipledColumns>;
+template class GlossySurfaces<SeenCoatedDiffuse<GgxLaw>>;
+template class GlossySurfaces<SeenCoatedDiffuse<BeckmannLaw>>;
+template class GlossySurfaces<SeenConductor<GgxLaw>>;
+template class GlossySurfaces<SeenConductor<BeckmannLaw>>;
+template class GlossySurfaces<SeenPrincipled>;
 
 }  // namespace lightnet

@@ -6,15 +6,18 @@
 
 #include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
-#include "core/scene/bsdf/glossy_columns.hpp"
+#include "core/scene/bsdf/coated_diffuse.hpp"
+#include "core/scene/bsdf/conductor.hpp"
+#include "core/scene/bsdf/model_columns.hpp"
+#include "core/scene/bsdf/principled.hpp"
 #include "core/scene/surfaces/heuristic.hpp"
 #include "core/scene/surfaces/mesh_points.hpp"
 
 namespace lightnet {
 
-/// Points of one model with gloss (CoatedColumns, MetalColumns, PrincipledColumns), which is shaded in columns as
-/// LambertianSurfaces are: what each is told is what it would be told alone, to the bit.
-template <class Columns>
+/// Points of one model with gloss, by its formulas (see seen.hpp), shaded in columns as LambertianSurfaces are: what
+/// each is told is what it would be told alone, to the bit.
+template <class Seen>
 class GlossySurfaces : public MeshPoints {
 public:
     /// Adds the point of a hit on `shape`, seen from `outgoing`; there is room for it. `who`: the caller's. Only these
@@ -30,11 +33,11 @@ public:
     bool has_gloss(std::size_t i) const { return columns_.has_gloss(i); }
 
     /// Does sample() look at choices?
-    static constexpr bool chooses = Columns::Model::chooses;
+    static constexpr bool chooses = Seen::Model::chooses;
     void set_choice(std::size_t i, float choice) { choices_[i] = choice; }
     /// As Bsdf has it.
     CosineChoices cosine_choices(std::size_t i) const {
-        return dark_[i] ? CosineChoices{} : columns_.cosine_choices(i);
+        return dark_[i] ? CosineChoices{} : columns_[i].cosine_choices();
     }
     /// Does sample() go by the cosine, by its choice?
     bool goes_by_cosine(std::size_t i) const { return cosine_choices(i).contain(choices_[i]); }
@@ -64,7 +67,7 @@ private:
     struct Finishing;
 
     std::array<std::uint8_t, lanes> lobes_;
-    Columns columns_;
+    ModelColumns<Seen> columns_;
     Columns3 across_, along_, up_;  // the frame of each
     Columns3 seen_;                 // outgoing, in it; z above 0
     Flags turned_, dark_;           // it is seen from below; nothing is seen of it
@@ -75,15 +78,15 @@ private:
     Steps steps_;
 };
 
-extern template class GlossySurfaces<CoatedColumns<GgxLaw>>;
-extern template class GlossySurfaces<CoatedColumns<BeckmannLaw>>;
-extern template class GlossySurfaces<MetalColumns<GgxLaw>>;
-extern template class GlossySurfaces<MetalColumns<BeckmannLaw>>;
-extern template class GlossySurfaces<PrincipledColumns>;
+extern template class GlossySurfaces<SeenCoatedDiffuse<GgxLaw>>;
+extern template class GlossySurfaces<SeenCoatedDiffuse<BeckmannLaw>>;
+extern template class GlossySurfaces<SeenConductor<GgxLaw>>;
+extern template class GlossySurfaces<SeenConductor<BeckmannLaw>>;
+extern template class GlossySurfaces<SeenPrincipled>;
 template <class Law>
-using CoatedSurfaces = GlossySurfaces<CoatedColumns<Law>>;
+using CoatedSurfaces = GlossySurfaces<SeenCoatedDiffuse<Law>>;
 template <class Law>
-using MetalSurfaces = GlossySurfaces<MetalColumns<Law>>;
-using PrincipledSurfaces = GlossySurfaces<PrincipledColumns>;
+using MetalSurfaces = GlossySurfaces<SeenConductor<Law>>;
+using PrincipledSurfaces = GlossySurfaces<SeenPrincipled>;
 
 }  // namespace lightnet

@@ -26,35 +26,18 @@ CosineChoices CoatedDiffuseBsdf::cosine_choices(float outgoing, std::uint8_t lob
 
 BsdfValue CoatedDiffuseBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
     if (incoming.z <= 0 || !(lobes & lobe::rough & this->lobes())) return {};
-    const float reflectance = coat->reflectance(facets, outgoing.z);
-    const float chance = coat_chance(reflectance, lobes);
-    BsdfValue sum;
-    if (lobes & lobe::diffuse) {
-        const float passes = coat->transmittance(facets, outgoing.z) * coat->transmittance(facets, incoming.z) /
-                             (coat->eta() * coat->eta());
-        sum.value += coated_base(base_reflectance(), passes, incoming.z);
-        sum.pdf += (1 - chance) * incoming.z * inverse_pi;
-    }
-    if ((lobes & lobe::glossy) && !smooth()) {
-        const auto [value, pdf, cosine] = reflection(facets, outgoing, incoming);
-        sum.value += tint * (fresnel_dielectric(cosine, coat->eta()) * value);
-        sum.pdf += chance * pdf;
-    }
-    return sum;
+    return facets.law.with_normals([&]<class Law>(Law) {
+        using Seen = SeenCoatedDiffuse<Law>;
+        return Seen::of(*this, outgoing.z, lobes)
+            .template value<false>(outgoing, incoming, Seen::arriving(*this, incoming.z));
+    });
 }
 
 std::optional<BsdfSample> CoatedDiffuseBsdf::sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
     if (!(lobes & this->lobes())) return {};
-    const float reflectance = coat->reflectance(facets, outgoing.z);
-    const float chance = coat_chance(reflectance, lobes);
-    if (choice < chance && smooth())
-        return BsdfSample{{-outgoing.x, -outgoing.y, outgoing.z}, tint * (reflectance / chance), 0, lobe::specular};
-    const bool base = choice >= chance;
-    const Vec3 incoming =
-        base ? cosine_hemisphere(u) : normalize(reflect(outgoing, facets.sample_visible(outgoing, u)));
-    const auto [value, pdf] = evaluate(outgoing, incoming, lobes);
-    if (!(pdf > 0)) return {};
-    return BsdfSample{incoming, value / pdf, pdf, base ? lobe::diffuse : lobe::glossy};
+    return facets.law.with_normals([&]<class Law>(Law) {
+        return sample_seen(SeenCoatedDiffuse<Law>::of(*this, outgoing.z, lobes), *this, outgoing, choice, u);
+    });
 }
 
 Coating CoatedDiffuseMaterial::coating(Coats& coats) const {

@@ -1,12 +1,16 @@
 // A diffuse base under a dielectric coat: plastic, varnish, glazed clay.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "core/base/math/sampling.hpp"
 #include "core/scene/bsdf/coat.hpp"
+#include "core/scene/bsdf/facets.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/scattering.hpp"
+#include "core/scene/bsdf/seen.hpp"
 
 namespace lightnet {
 
@@ -35,10 +39,55 @@ struct CoatedDiffuseBsdf {
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
 };
 
-/// What the base sends on: `passes` is what the coat lets in and out, where radiance shrinks by η².
-inline Rgb coated_base(Rgb reflectance, float passes, float cosine) {
-    return reflectance * (passes * cosine * inverse_pi);
-}
+/// It from one direction (see seen.hpp), its facets by one law. Lobes that were not asked for are black.
+template <class Law>
+struct SeenCoatedDiffuse {
+    using Model = CoatedDiffuseBsdf;
+    FacetsOf<Law> facets;
+    Rgb base;                     // what all ways off the base come to
+    Rgb tint;                     // of the coat's reflection
+    float eta, reflected;         // of the coat
+    float chance;                 // with which the coat is sampled
+    float passed;                 // by the coat, out to the viewer
+    std::uint32_t mirror, gloss;  // the coat is smooth; it is rough, and counts
+
+    static SeenCoatedDiffuse of(const Model& model, float outgoing, std::uint8_t lobes) {
+        const float reflected = model.coat->reflectance(model.facets, outgoing);
+        return {model.facets.of<Law>(),
+                lobes & lobe::diffuse ? model.base_reflectance() : Rgb{},
+                model.tint,
+                model.coat->eta(),
+                reflected,
+                model.coat_chance(reflected, lobes),
+                model.coat->transmittance(model.facets, outgoing),
+                model.smooth(),
+                !model.smooth() && (lobes & lobe::glossy)};
+    }
+    static float arriving(const Model& model, float incoming) {
+        return model.coat->transmittance(model.facets, incoming);
+    }
+    // Radiance shrinks by η² on its way out.
+    template <bool many>
+    [[gnu::always_inline]] BsdfValue value(Vec3 outgoing, Vec3 incoming, float passed_in) const {
+        const Rgb below = base * (passed * passed_in / (eta * eta) * incoming.z * inverse_pi);
+        const float below_pdf = (1 - chance) * incoming.z * inverse_pi;
+        const auto [value, pdf, cosine] = many || gloss ? reflection(facets, outgoing, incoming) : Facets{};
+        const Rgb both = below + tint * (fresnel_dielectric(cosine, eta) * value);
+        return {chosen(gloss, both, below), gloss ? below_pdf + chance * pdf : below_pdf};
+    }
+    template <bool many>
+    [[gnu::always_inline]] Proposal propose(Vec3 outgoing, float choice, Vec2 u) const {
+        const bool below = choice >= chance;
+        const Vec3 by_base = many || below ? cosine_hemisphere(u) : Vec3{};
+        const bool by_gloss = many || (!below && !mirror);
+        const Vec3 by_facets = by_gloss ? reflected_by(facets, outgoing, u) : Vec3{};
+        const Vec3 by_coat = chosen(mirror, Vec3{-outgoing.x, -outgoing.y, outgoing.z}, by_facets);
+        const std::uint32_t coat_lobe = mirror ? lobe::specular : lobe::glossy;
+        return {chosen(below, by_base, by_coat), below ? std::uint32_t{lobe::diffuse} : coat_lobe};
+    }
+    Rgb mirrored(float) const { return tint * (reflected / chance); }
+    CosineChoices cosine_choices() const { return {chance, 1}; }
+};
 
 class Coats;
 

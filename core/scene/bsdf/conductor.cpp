@@ -1,28 +1,25 @@
 #include "core/scene/bsdf/conductor.hpp"
 
-#include "core/scene/bsdf/facets.hpp"
-#include "core/scene/bsdf/fresnel.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace lightnet {
 
 BsdfValue ConductorBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
     if (!(lobes & lobe::glossy) || smooth() || incoming.z <= 0) return {};
-    const auto [value, pdf, cosine] = reflection(facets, outgoing, incoming);
-    if (!(cosine > 0)) return {};
-    return {tint * fresnel_conductor(cosine, eta, k) * value, pdf};
+    return facets.law.with_normals([&]<class Law>(Law) {
+        return SeenConductor<Law>::of(*this, outgoing.z, lobes).template value<false>(outgoing, incoming, {});
+    });
 }
 
-std::optional<BsdfSample> ConductorBsdf::sample(Vec3 outgoing, float, Vec2 u, std::uint8_t lobes) const {
+std::optional<BsdfSample> ConductorBsdf::sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
     if (!(lobes & this->lobes())) return {};
     if (smooth())
         return BsdfSample{
             {-outgoing.x, -outgoing.y, outgoing.z}, tint * fresnel_conductor(outgoing.z, eta, k), 0, lobe::specular};
-    const Vec3 m = facets.sample_visible(outgoing, u);
-    const Vec3 incoming = normalize(reflect(outgoing, m));
-    if (incoming.z <= 0) return {};
-    const auto [value, pdf] = evaluate(outgoing, incoming, lobe::glossy);
-    if (pdf <= 0) return {};
-    return BsdfSample{incoming, value / pdf, pdf, lobe::glossy};
+    return facets.law.with_normals([&]<class Law>(Law) {
+        return sample_seen(SeenConductor<Law>::of(*this, outgoing.z, lobes), *this, outgoing, choice, u);
+    });
 }
 
 Rgb absorption_for(Rgb reflectance) {

@@ -1,11 +1,15 @@
 // Metal: a mirror, or microfacets of mirror. Single scattering: rough metals lose some energy, as in pbrt.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
+#include "core/scene/bsdf/facets.hpp"
+#include "core/scene/bsdf/fresnel.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/microfacets.hpp"
 #include "core/scene/bsdf/scattering.hpp"
+#include "core/scene/bsdf/seen.hpp"
 
 namespace lightnet {
 
@@ -20,6 +24,30 @@ struct ConductorBsdf {
     std::uint8_t lobes() const { return smooth() ? lobe::specular : lobe::glossy; }
     BsdfValue evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const;
     std::optional<BsdfSample> sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const;
+};
+
+/// A rough one from one direction (see seen.hpp), its facets by one law.
+template <class Law>
+struct SeenConductor {
+    using Model = ConductorBsdf;
+    FacetsOf<Law> facets;
+    Rgb eta, k, tint;
+
+    static SeenConductor of(const Model& model, float, std::uint8_t) {
+        return {model.facets.of<Law>(), model.eta, model.k, model.tint};
+    }
+    static float arriving(const Model&, float) { return 0; }
+    template <bool>
+    [[gnu::always_inline]] BsdfValue value(Vec3 outgoing, Vec3 incoming, float) const {
+        const auto [value, pdf, cosine] = reflection(facets, outgoing, incoming);
+        return {tint * fresnel_conductor(cosine, eta, k) * value, pdf};
+    }
+    template <bool>
+    [[gnu::always_inline]] Proposal propose(Vec3 outgoing, float, Vec2 u) const {
+        return {reflected_by(facets, outgoing, u), lobe::glossy};
+    }
+    Rgb mirrored(float) const { return {}; }
+    CosineChoices cosine_choices() const { return {}; }
 };
 
 /// k of a metal of index 1 + i k that reflects `reflectance` at normal incidence, as pbrt takes it.

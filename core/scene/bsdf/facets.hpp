@@ -32,6 +32,12 @@ inline Facets reflection(const Microfacets& facets, Vec3 outgoing, Vec3 incoming
     return facets.as_they_are([&](const auto& f) { return reflection(f, outgoing, incoming); });
 }
 
+/// Where facets that are seen from `outgoing` reflect it to.
+template <class Law>
+[[gnu::always_inline]] inline Vec3 reflected_by(const FacetsOf<Law>& facets, Vec3 outgoing, Vec2 u) {
+    return normalize(reflect(outgoing, facets.sample_visible(outgoing, u)));
+}
+
 /// The directions lie on different sides; `eta` inside over outside. The value holds the squeezing of radiance.
 inline Facets refraction(const Microfacets& facets, Vec3 outgoing, Vec3 incoming, float eta) {
     const float relative = outgoing.z > 0 ? eta : 1 / eta;

@@ -32,7 +32,7 @@ struct FacetLaw {
 template <class Law>
 struct FacetsOf {
     float alpha_u = 0, alpha_v = 0;
-    bool by_height = true;  // FacetLaw::Masking
+    std::uint32_t by_height = true;  // FacetLaw::Masking
 
     /// Density of normals `m`, per steradian.
     [[gnu::always_inline]] float density(Vec3 m) const {
@@ -65,11 +65,15 @@ struct Microfacets {
     float alpha_u = 0, alpha_v = 0;
     FacetLaw law{};
 
+    /// These, which follow that law.
+    template <class Law>
+    FacetsOf<Law> of() const {
+        return {alpha_u, alpha_v, law.masking == FacetLaw::Masking::by_height};
+    }
     /// use(FacetsOf<GgxLaw>) or use(FacetsOf<BeckmannLaw>): these.
     template <class Use>
     auto as_they_are(Use use) const {
-        const bool by_height = law.masking == FacetLaw::Masking::by_height;
-        return law.with_normals([&]<class Law>(Law) { return use(FacetsOf<Law>{alpha_u, alpha_v, by_height}); });
+        return law.with_normals([&]<class Law>(Law) { return use(of<Law>()); });
     }
     float lambda(Vec3 w) const {
         return as_they_are([&](const auto& facets) { return facets.lambda(w); });

@@ -1,12 +1,15 @@
 // The material of game engines and film studios: metal, plastic, glass and cloth by a few numbers.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "core/base/math/sampling.hpp"
+#include "core/scene/bsdf/facets.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/microfacets.hpp"
 #include "core/scene/bsdf/scattering.hpp"
+#include "core/scene/bsdf/seen.hpp"
 #include "core/scene/bsdf/thin_film.hpp"
 
 namespace lightnet {
@@ -129,6 +132,92 @@ inline constexpr float principled_coat_f0 = 0.04f;  // its index is 1.5
 [[gnu::always_inline]] inline Rgb principled_base(Rgb base, float share, float passes_out, float passes_in,
                                                   float passes_on_average, float cosine) {
     return base * (share * (passes_out * passes_in / passes_on_average) * (cosine * inverse_pi));
+}
+
+/// An opaque one without cloth, films and grooves from one direction (see seen.hpp).
+struct SeenPrincipled {
+    using Model = PrincipledBsdf;
+    FacetsOf<GgxLaw> facets, coat_facets;
+    Rgb base, f0;
+    float f90, metallic, plastic, coat;
+    float by_coat, by_base, by_facets;  // chances
+    float left;                         // by the coat
+    float passes, passes_on_average;
+    float height;                       // of outgoing
+    std::uint32_t smooth, smooth_coat;  // as Model has them
+
+    static SeenPrincipled of(const Model& model, float outgoing, std::uint8_t lobes);
+    struct Arriving {
+        float left, passes;
+    };
+    static Arriving arriving(const Model& model, float incoming);
+    template <bool>
+    [[gnu::always_inline]] BsdfValue value(Vec3 outgoing, Vec3 incoming, const Arriving& in) const {
+        const float below = left < in.left ? left : in.left;
+        const Rgb by_cosine = principled_base(base, plastic * below, passes, in.passes, passes_on_average, incoming.z);
+        const float base_pdf = by_base * (incoming.z * inverse_pi);
+        const auto [value, pdf, cosine] = reflection(facets, outgoing, incoming);
+        const Rgb gloss = reflected(cosine) * (value * below);
+        const auto [above, above_pdf, above_cosine] = reflection(coat_facets, outgoing, incoming);
+        const float by_varnish = principled_coat(coat, above_cosine) * above;
+        const bool rough_coat = (coat > 0) & (smooth_coat == 0);
+        const auto sum = [&](float one, float another) {
+            const float both = one + (smooth ? 0 : another);
+            return both + (rough_coat ? by_varnish : 0);
+        };
+        const float own_pdf = by_facets * pdf, both_pdf = base_pdf + (smooth ? 0 : own_pdf);
+        return {{sum(by_cosine.r, gloss.r), sum(by_cosine.g, gloss.g), sum(by_cosine.b, gloss.b)},
+                both_pdf + (rough_coat ? by_coat * above_pdf : 0)};
+    }
+    template <bool>
+    [[gnu::always_inline]] Proposal propose(Vec3 outgoing, float choice, Vec2 u) const {
+        const bool above = choice < by_coat, below = choice - by_coat < by_base;
+        const float alpha = above ? coat_facets.alpha_u : facets.alpha_u;
+        const std::uint32_t facets_left = by_facets > 0;
+        const bool mirrors = (above ? smooth_coat : smooth & facets_left) != 0;
+        const Vec3 by_alpha = reflected_by(FacetsOf<GgxLaw>{alpha, alpha}, outgoing, u);
+        const Vec3 gloss = chosen(mirrors, Vec3{-outgoing.x, -outgoing.y, outgoing.z}, by_alpha);
+        const Vec3 by_facets_left{gloss.x, gloss.y, facets_left ? gloss.z : 0};
+        const Vec3 own = chosen(below, cosine_hemisphere(u), by_facets_left);
+        const std::uint32_t gloss_lobe = mirrors ? lobe::specular : lobe::glossy;
+        const std::uint32_t own_lobe = below ? std::uint32_t{lobe::diffuse} : gloss_lobe;
+        return {chosen(above, gloss, own), above ? gloss_lobe : own_lobe};
+    }
+    [[gnu::always_inline]] Rgb mirrored(float choice) const {
+        const float above = principled_coat(coat, height) / by_coat;
+        return chosen(choice < by_coat, Rgb{above, above, above}, reflected(height) * left / by_facets);
+    }
+    CosineChoices cosine_choices() const { return {by_coat, by_coat + by_base}; }
+    [[gnu::always_inline]] Rgb reflected(float cosine) const {
+        return principled_mirror(base, metallic, f0, f90, plastic, cosine);
+    }
+};
+inline SeenPrincipled SeenPrincipled::of(const Model& model, float outgoing, std::uint8_t lobes) {
+    const auto chances = model.chances(outgoing, lobes);
+    const float plastic = model.plastic_share(), left = model.layers(outgoing).below_coat;
+    const float passes = plastic > 0 ? model.passes(outgoing) : 0, on_average = model.passes_on_average();
+    return {.facets = model.facets.of<GgxLaw>(),
+            .coat_facets = {model.coat_alpha, model.coat_alpha},
+            .base = model.base,
+            .f0 = model.f0,
+            .f90 = model.f90,
+            .metallic = model.metallic,
+            .plastic = plastic,
+            .coat = model.coat,
+            .by_coat = chances.coat,
+            .by_base = chances.diffuse,
+            .by_facets = chances.facets,
+            .left = left,
+            .passes = passes,
+            .passes_on_average = on_average,
+            .height = outgoing,
+            .smooth = model.smooth(),
+            .smooth_coat = model.smooth_coat()};
+}
+
+inline SeenPrincipled::Arriving SeenPrincipled::arriving(const Model& model, float incoming) {
+    return {model.coat > 0 ? model.layers(incoming).below_coat : 1,
+            model.plastic_share() > 0 ? model.passes(incoming) : 0};
 }
 
 /// KHR_materials_anisotropy.
