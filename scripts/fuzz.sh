@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fuzz.sh TARGET SECONDS: builds one target of tests/fuzz with clang's libFuzzer, addresses and undefined behaviour
-# checked (preset fuzz), and has it look for inputs that break it for so long. It begins with the target's seeds and
+# fuzz.sh TARGET SECONDS: builds the targets of tests/fuzz with clang's libFuzzer, addresses and undefined behaviour
+# checked (preset fuzz), and has it look for inputs that break TARGET for so long. It begins with the target's seeds and
 # what earlier calls have kept in build/fuzz/fuzz/corpus/TARGET. What breaks it is put beside, as crash-… or timeout-…,
 # and belongs into tests/fuzz/found/TARGET when it is mended. Without words: the names of the targets.
 # Debian: clang and its libclang-rt-dev of the same version. It takes one core, and 2 GiB of memory.
@@ -13,9 +13,8 @@ if [ $# -ne 2 ]; then
 fi
 target=$1 seconds=$2
 cmake --preset fuzz --log-level=WARNING >/dev/null
-cmake --build --preset fuzz --target "fuzz_$target"
-mkdir -p "build/fuzz/fuzz/corpus/$target"
+cmake --build --preset fuzz --target fuzzers
 known=()
 [ -d "tests/fuzz/found/$target" ] && known=("tests/fuzz/found/$target")
-exec "build/fuzz/fuzz/fuzz_$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
+FUZZ_TARGET=$target exec build/fuzz/fuzz/fuzz -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/fuzz/$target-" "build/fuzz/fuzz/corpus/$target" "${known[@]}"

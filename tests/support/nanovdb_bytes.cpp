@@ -59,7 +59,9 @@ std::string nanovdb_grid(const NanovdbPoints& grid) {
     put(bytes, root_at + 24, std::uint32_t(uppers.size()));
     std::size_t tile = root_at + 64;
     for (const auto& [place, at] : uppers) {
-        const auto key = [&](std::size_t axis) { return std::uint64_t{std::uint32_t(place[axis]) >> 12}; };
+        const auto key = [&, &place = place](std::size_t axis) {
+            return std::uint64_t{std::uint32_t(place[axis]) >> 12};
+        };
         put(bytes, tile, key(2) | key(1) << 21 | key(0) << 42);
         put(bytes, tile + 8, std::uint64_t{at - root_at});
         tile += 32;

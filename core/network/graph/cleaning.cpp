@@ -60,7 +60,7 @@ std::vector<Problem> add_cleaning(Graph& graph, const Registry& registry) {
             graph.nodes.push_back(feature_node(name, graph.nodes[renderer], *kind));
         }
         auto& shown =
-            std::get<Table>(graph.nodes[renderer].params.try_emplace("show", Table{}).first->second.data).list;
+            std::get<Table>(graph.nodes[renderer].params.try_emplace("show", Value{Table{}}).first->second.data).list;
         const auto same = [&](const Value& entry) {
             const auto* ref = std::get_if<NodeRef>(&entry.data);
             return ref && ref->name == name;
