@@ -86,5 +86,32 @@ TEST(ExrClaims, AreAttributesLongerThanTheFile) {
     EXPECT_THROW(check(attribute("odd", "string", "x", 0xffffffff), 200), Error);
 }
 
+std::string number(std::uint32_t value) { return {reinterpret_cast<const char*>(&value), sizeof value}; }
+
+// One of floats, of that name.
+std::string channel(const std::string& name) { return name + '\0' + number(2) + number(0) + number(1) + number(1); }
+
+// Libraries read a list to its own end, so that what an attribute says of its size must be that: else what follows
+// would be taken for the size of something else, and for so much memory.
+TEST(ExrClaims, AreSizesOfAttributesThatAreRightForTheirType) {
+    const std::string list = channel("R") + channel("G") + '\0';
+    const auto size = [](const std::string& value) { return static_cast<std::uint32_t>(value.size()); };
+    EXPECT_NO_THROW(check(attribute("channels", "chlist", list, size(list)) + window(8, 8), 300));
+    EXPECT_THROW(check(attribute("channels", "chlist", list, size(channel("R"))) + window(8, 8), 300), Error);
+    EXPECT_THROW(check(attribute("channels", "chlist", list + "xyz", size(list) + 3) + window(8, 8), 300), Error);
+    EXPECT_THROW(check(attribute("screen", "box2i", std::string(8, '\0'), 8), 300), Error);
+    EXPECT_THROW(check(attribute("ratio", "float", std::string(8, '\0'), 8), 300), Error);
+
+    const std::string names = number(2) + "ab" + number(1) + "c";
+    EXPECT_NO_THROW(check(attribute("names", "stringvector", names, size(names)), 300));
+    const std::string longer = number(2) + "ab" + number(1'700'000'000) + "c";
+    EXPECT_THROW(check(attribute("names", "stringvector", longer, size(longer)), 300), Error);
+
+    const std::string preview = number(2) + number(1) + std::string(8, 'p');
+    EXPECT_NO_THROW(check(attribute("preview", "preview", preview, size(preview)), 300));
+    const std::string large = number(65536) + number(65536) + std::string(8, 'p');
+    EXPECT_THROW(check(attribute("preview", "preview", large, size(large)), 300), Error);
+}
+
 }  // namespace
 }  // namespace lightnet::plain_file_test
