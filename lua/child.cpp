@@ -21,13 +21,13 @@
 #include <new>
 
 #include "core/base/error.hpp"
+#include "core/base/patience.hpp"
 #include "core/base/spare_threads.hpp"
 #include "core/network/graph/value.hpp"
 
 namespace lightnet::lua {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Length = std::uint64_t;  // goes before the text, so that an answer cut short is no answer
 
 /// An end of a pipe.
@@ -188,13 +188,13 @@ private:
 
 // Reads to the end of the answer, or until the time or the size is over. False: the time is over.
 bool receive(int file, Said& said, const Budget& budget, std::string& text) {
-    const auto end = Clock::now() + std::chrono::duration<double>(budget.wall_seconds);
+    Patience patience(
+        std::chrono::duration_cast<Patience::Clock::duration>(std::chrono::duration<double>(budget.wall_seconds)));
     std::array<char, 65536> buffer;
     std::array<pollfd, 2> ready{pollfd{file, POLLIN, 0}, pollfd{said.number(), POLLIN, 0}};
     while (text.size() <= budget.output + sizeof(Length)) {
-        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
-        if (left <= 0) return false;
-        if (::poll(ready.data(), ready.size(), static_cast<int>(left)) <= 0) continue;
+        if (patience.is_over()) return false;
+        if (::poll(ready.data(), ready.size(), static_cast<int>(patience.until_look().count())) <= 0) continue;
         if (ready[1].revents && !said.pass_on()) ready[1].fd = -1;  // poll() looks at it no more
         if (!ready[0].revents) continue;
         const ssize_t size = ::read(file, buffer.data(), buffer.size());

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include <csignal>
 
 #include <fstream>
 #include <iterator>
@@ -141,6 +144,29 @@ TEST(Complaints, AreNoLongerThanOneReads) {
 TEST(Complaints, OfHostsAreBoundedAlike) {
     const std::string error = error_in_hosts("for i = 1, 1000 do place 'tcp://a:1' { a = 'b' } end");
     EXPECT_THAT(error, HasSubstr("\nand 900 more"));
+}
+
+// As by a terminal, or by a container that is frozen: the answer is there when it goes on.
+TEST(Child, HasNoLessTimeWhereItsParentIsStopped) {
+    const pid_t process = ::fork();
+    ASSERT_GE(process, 0);
+    if (process == 0) {
+        const lua::Budget budget{30, 1.5, std::size_t{256} << 20};
+        const auto answer = [&] {
+            return lua::in_child(budget, [] {
+                ::usleep(500'000);
+                return std::string("there");
+            });
+        };
+        ::_exit(error_of([&] { (void)answer(); }).empty() ? 0 : 1);
+    }
+    ::usleep(100'000);
+    ::kill(process, SIGSTOP);
+    ::usleep(2'500'000);
+    ::kill(process, SIGCONT);
+    int status = 0;
+    ASSERT_EQ(::waitpid(process, &status, 0), process);
+    EXPECT_EQ(status, 0);
 }
 
 }  // namespace

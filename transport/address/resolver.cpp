@@ -10,6 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/base/patience.hpp"
+
 namespace lightnet {
 namespace {
 
@@ -136,12 +138,12 @@ std::optional<IpAddress> Resolver::remembered(const std::string& endpoint) const
 }
 
 Whereabout Resolver::wait_for(const std::string& host, std::chrono::milliseconds most) {
-    const auto end = Clock::now() + most;
+    Patience left(most);
     auto known = look(host, Clock::now());
     std::unique_lock lock(desk_->mutex, std::defer_lock);
-    while (known.state == Whereabout::State::asked && Clock::now() < end) {
+    while (known.state == Whereabout::State::asked && !left.is_over()) {
         lock.lock();
-        desk_->answered.wait_until(lock, std::min(end, Clock::now() + std::chrono::milliseconds(100)));
+        desk_->answered.wait_for(lock, std::min(left.until_look(), std::chrono::milliseconds(100)));
         lock.unlock();
         known = look(host, Clock::now());
     }

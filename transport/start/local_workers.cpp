@@ -12,6 +12,7 @@
 #include <poll.h>
 
 #include "core/base/error.hpp"
+#include "core/base/patience.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/start/child.hpp"
 
@@ -25,12 +26,11 @@ constexpr const char* any_port = "tcp://127.0.0.1:*";
 constexpr auto start_patience = std::chrono::seconds(20);
 
 // The first line of a daemon: "listening on ENDPOINT". None: it has ended, or is silent.
-std::optional<std::string> read_endpoint(int in) {
+std::optional<std::string> read_endpoint(int in, Patience& patience) {
     std::string line;
-    const auto end = Clock::now() + start_patience;
-    while (line.find('\n') == std::string::npos && Clock::now() < end) {
+    while (line.find('\n') == std::string::npos && !patience.is_over()) {
         pollfd item{in, POLLIN, 0};
-        if (poll(&item, 1, 200) <= 0) continue;
+        if (poll(&item, 1, static_cast<int>(patience.until_look().count())) <= 0) continue;
         char buffer[256];
         const auto n = read(in, buffer, sizeof buffer);
         if (n < 0 && errno == EINTR) continue;
@@ -106,13 +106,14 @@ void LocalWorkers::start_all(std::uint32_t count) {
 bool LocalWorkers::await_start(Worker& worker, int out) {
     while (true) {
         const auto begun = Clock::now();
-        const auto endpoint = read_endpoint(out);
+        Patience patience(start_patience);
+        const auto endpoint = read_endpoint(out, patience);
         close(out);
         if (endpoint) {
             worker.endpoint = worker.listens = *endpoint;
             return true;
         }
-        const bool silent = Clock::now() - begun >= start_patience;
+        const bool silent = patience.is_over();
         const int status = end_of(std::exchange(worker.process, 0));
         if (silent || !WIFSIGNALED(status)) return false;
         worker.restarts.died(begun, false);

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/ip_address.hpp"
+#include "core/base/patience.hpp"
 #include "transport/lines/poll.hpp"
 #include "transport/zmq/handshake.hpp"
 #include "transport/zmq/socket.hpp"
@@ -29,8 +30,8 @@ void try_door(const std::string& endpoint, const PublicKey& door, const std::fun
     auto stranger = unconnected_asking_socket(outside, endpoint, LineKeys{KeyPair::random(), door});
     note_handshakes(outside, stranger);
     stranger.connect(knocked_at(endpoint));
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (std::chrono::steady_clock::now() < end) {
+    Patience left(patience);
+    while (!left.is_over()) {
         tend();
         if (const auto seen = last_handshake(stranger)) {
             if (*seen == Handshake::refused) return;
