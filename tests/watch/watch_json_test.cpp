@@ -48,6 +48,17 @@ TEST(WatchedRunJson, NamesLayersWithoutNoiseBehindTheOthers) {
     EXPECT_FALSE(without.contains("cleaned"));
 }
 
+TEST(WatchedRunJson, TellsTheFramesOfASequence) {
+    const Registry registry = fake_registry();
+    const FilmFormat format{8, 4, {"a"}, 16};
+    WatchedRun frame{small_graph(), registry, format, "x.0002.exr"};
+    EXPECT_FALSE(nlohmann::json::parse(hello_json(frame))["hello"].contains("frames"));
+    frame.frames = {2, {{1, "done"}, {2, ""}, {3, ""}}};
+    const auto frames = nlohmann::json::parse(hello_json(frame))["hello"]["frames"];
+    EXPECT_EQ(frames["at_work"], 2);
+    EXPECT_EQ(frames["all"], nlohmann::json::parse(R"([[1,"done"],[2,""],[3,""]])"));
+}
+
 TEST(WatchedStateJson, AddsUpWhatHostsSay) {
     const HostFigures figures{{{1, 2, 3, 4}}, std::vector<NodeFigures>(6, {1, 2, 3, 4, 5, 6, 7}), {{8, 1, 2, 3}, {9}}};
     WatchedState state;

@@ -16,7 +16,6 @@ namespace {
 // What is shown of one picture can't be shown of many; files of their own can, where each has a name.
 void check_together(const RunningOptions& running) {
     const auto refuse = [](const std::string& option, const std::string& why) { throw UserError({option, 0}, why); };
-    if (running.watch) refuse("--watch", "a page shows one picture: leave it out, or ask for one frame");
     if (running.viewer) refuse("--preview tev", "a viewer is shown one picture: leave it out, or ask for one frame");
     for (const auto& [option, file] : {std::pair("--report", &running.report),
                                        {"--trace", &running.trace},

@@ -52,6 +52,7 @@ struct FrameOfSequence {
     int number = 1;
     std::size_t index = 0, count = 1;               // among those that are to be rendered
     std::chrono::steady_clock::time_point begun{};  // the sequence
+    std::vector<std::pair<int, std::string>> all{};  // frames of it, by number, and what became of each so far
 };
 
 /// What was written of a run's picture. A value.

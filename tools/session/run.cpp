@@ -35,7 +35,7 @@ namespace {
 
 std::optional<Progress::Series> series_of(const RunRequest& request) {
     if (!request.frame) return std::nullopt;
-    const auto& [number, index, count, begun] = *request.frame;
+    const auto& [number, index, count, begun, all] = *request.frame;
     return Progress::Series{number, index, count, begun};
 }
 
@@ -48,6 +48,14 @@ std::string words_of_lighting(const RunRequest& request) {
 
 // A scene as those see it who write of it.
 const SceneData& data_of(const LoadedScene& scene) { return scene.built ? scene.built->data() : scene.data; }
+
+/// `one_of_several`: they have one page.
+WatchedRun watched_run(const RunRequest& request, const Registry& registry, const FilmFormat& format,
+                       bool one_of_several) {
+    WatchedRun watched{request.graph, registry, format, request.output, one_of_several && !request.frame};
+    if (request.frame && one_of_several) watched.frames = {request.frame->number, request.frame->all};
+    return watched;
+}
 
 // One run of a checked graph, from its scene to its files.
 class Run {
@@ -229,7 +237,7 @@ void Run::open_to_watchers() {
     WatchServer* const server = handover_ ? handover_->server : nullptr;
     watcher_.emplace(Watcher::Options{request_.watch, request_.viewer, !request_.report.empty(), ask_to_stop,
                                       explainer_ ? &*explainer_ : nullptr, server},
-                     WatchedRun{request_.graph, registry_, format_, request_.output, server != nullptr});
+                     watched_run(request_, registry_, format_, server != nullptr));
     book_.show_to(&*watcher_);
     // Whoever asks for it wants to know, however little else is said.
     if (request_.watch && !server) std::cerr << "watch it at " << watcher_->url() << std::endl;

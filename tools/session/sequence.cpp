@@ -21,6 +21,7 @@
 #include "tools/session/sequence_report.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/pace.hpp"
+#include "tools/watch/watch_page.hpp"
 
 namespace lightnet {
 namespace {
@@ -32,12 +33,14 @@ class Motion {
 public:
     explicit Motion(const Registry& registry) : registry_(registry) {}
 
-    /// Takes the time out of what is asked for where nothing hangs on it, so that all frames ask for the same.
+    /// Takes times out of what is asked for where nothing hangs on them, so that all frames ask for the same.
     void settle(RunRequest& request) {
         Node& scene = request.graph.nodes[place_of(request.graph)];
-        const auto time = scene.params.find("time");
-        if (time == scene.params.end() || moves(request, scene)) return;
-        scene.params.erase(time);
+        if (!scene.params.contains("time") || moves(request, scene)) return;
+        scene.params.erase("time");
+        for (const char* frame : {"previous", "next"})
+            if (const auto beside = scene.params.find(frame); beside != scene.params.end())
+                if (!std::get<Table>(beside->second.data).named.contains("file")) scene.params.erase(beside);
     }
 
 private:
@@ -48,13 +51,13 @@ private:
     bool moves(RunRequest& request, const Node& scene) {
         const auto* format = scene_format_of(request.scene);
         if (!format || !format->moves) return false;
-        auto constants = scene_constants(scene);
-        constants.erase(std::string(time_constant));
+        auto constants = scene_constants(request.graph, scene);
+        for (const auto name : {time_constant, previous_constant, next_constant}) constants.erase(std::string(name));
         const auto [known, fresh] = known_.try_emplace({request.scene, std::move(constants)}, false);
         if (!fresh) return known->second;
         if (!request.read) {  // it is at this time already
             auto read = std::make_shared<ReadScene>();
-            read->scene = read_scene(read->files, request.scene, scene_constants(scene));
+            read->scene = read_scene(read->files, request.scene, scene_constants(request.graph, scene));
             request.read = std::move(read);
         }
         return known->second = !request.read->scene.animations.empty();
@@ -74,6 +77,7 @@ public:
     }
 
     int perform() {
+        open_to_watchers();
         for (std::size_t i = 0; i < sequence_.frames.size(); ++i)
             if (const int code = render(i); code != exit_code::done) return end(code);
         for (std::size_t i = 0; i < sequence_.frames.size(); ++i)  // whose run may have ended without them
@@ -83,12 +87,30 @@ public:
     }
 
 private:
+    // One page for all frames, which stays until the sequence ends.
+    void open_to_watchers() {
+        const auto& watch = sequence_.frames.front().watch;
+        if (!watch) return;
+        server_.emplace(WatchServer::Options{*watch, new_token(), watch_page()},
+                        WatchStage{R"({"hello":null})", std::make_shared<WatchBoard>(Window{}, 1),
+                                   [](const WatchCommand& command) { command.answer("not yet"); }});
+        handover_.server = &*server_;
+        std::cerr << "watch it at " << server_->url() << std::endl;
+    }
+    std::vector<std::pair<int, std::string>> outcomes() const {
+        std::vector<std::pair<int, std::string>> all;
+        for (const auto& frame : report_.frames)
+            all.emplace_back(frame.frame, frame.outcome == "waiting" ? "" : frame.outcome);
+        return all;
+    }
+
     int render(std::size_t i) {
         RunRequest& request = sequence_.frames[i];
         FrameReport& report = report_.frames[i];
         request.frame->index = report_.count("done");
         request.frame->count = report_.frames.size() - report_.count("there") - report_.count("elsewhere");
         request.frame->begun = begun_;
+        if (server_) request.frame->all = outcomes();
         const auto begun = Clock::now();
         int code = exit_code::done;
         try {
@@ -175,6 +197,7 @@ private:
     Sequence sequence_;
     const Registry& registry_;
     Motion motion_;
+    std::optional<WatchServer> server_;  // of the page, if there is one
     Handover handover_;
     SequenceReport report_;
     Clock::time_point begun_ = Clock::now();

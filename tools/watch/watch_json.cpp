@@ -204,6 +204,11 @@ std::string hello_json(const WatchedRun& run, const Viewed* viewed) {
             colours.push_back({{"name", "clean." + layer}, {"layer", false}, {"fact", false}, {"gain", {1, 1, 1}}});
     }
     if (viewed) add_viewed(hello, *viewed);
+    if (run.frames) {
+        auto all = JsonTree::list();
+        for (const auto& [number, outcome] : run.frames->all) all.push_back({number, outcome});
+        hello["frames"] = {{"at_work", run.frames->at_work}, {"all", std::move(all)}};
+    }
     hello["colours"] = std::move(colours);
     return sorted_text({{"hello", std::move(hello)}});
 }

@@ -23,6 +23,12 @@ struct WatchedRun {
     const FilmFormat& format;
     std::string output;
     bool edited = false;  // by those who watch, too
+    /// Of a sequence, by its number, and what became of each: "" is still to come. None: a still.
+    struct Frames {
+        int at_work = 0;
+        std::vector<std::pair<int, std::string>> all;
+    };
+    std::optional<Frames> frames{};
 };
 
 /// What does.

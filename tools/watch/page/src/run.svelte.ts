@@ -73,6 +73,8 @@ class Run {
             // Another picture of the same form is painted over.
             const form = (hello: Hello | null) => JSON.stringify([hello?.picture, hello?.colours.map(({ name }) => name)]);
             if (form(said.hello) !== form(this.hello)) this.picture = new Picture(said.hello);
+            // What the frame before it came to is nothing to say of this one.
+            if (said.hello?.frames?.at_work !== this.hello?.frames?.at_work) this.state = null;
             this.hello = said.hello;
             this.log = [];
         }

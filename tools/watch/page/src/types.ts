@@ -36,6 +36,7 @@ export interface Hello {
     nodes: GraphNode[];
     edges: [number, number][]; // who asks whom
     edited: boolean; // of a session, which goes on when a picture is finished
+    frames?: { at_work: number; all: [number, string][] }; // of a sequence, and what became of each; "": still to come
     viewed?: boolean; // a finished picture: nothing runs
     facts?: [string, string][]; // what its file says
     other?: Other;
