@@ -1,11 +1,12 @@
--- A short film: the camera goes through the Cornell box with the ball of glass, and one kind of light comes up.
--- lightnet run film.lua --frames 1-24
-frames = 24
+-- A short film: the camera goes through the Cornell box with the ball of glass, and one kind of light comes up. Each
+-- frame is blurred by what the camera moves in half of its time.
+-- lightnet run film.lua --frames 1-48
+frames = 48
 
-eye = keys { [1] = { 278, 273, -800 }, [12] = { 420, 330, -600 }, [24] = { 120, 180, -640 }, smooth = true }
-at  = keys { [1] = { 278, 273, 0 }, [24] = { 240, 200, 200 } }
+eye = keys { [1] = { 278, 273, -800 }, [24] = { 420, 330, -600 }, [48] = { 120, 180, -640 }, smooth = true }
+at  = keys { [1] = { 278, 273, 0 }, [48] = { 240, 200, 200 } }
 
-scene    = Scene { "glass_ball.pbrt", camera = { from = eye, to = at } }
+scene    = Scene { "glass_ball.pbrt", camera = { from = eye, to = at }, shutter = { 0, 0.5 } }
 direct   = DirectLighting { samples = 1 }
 bounce   = PathTracing    { samples = 1 }
 lighting = Combine        { direct, bounce }

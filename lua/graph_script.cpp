@@ -9,6 +9,7 @@
 #include "core/base/in_quotes.hpp"
 #include "core/base/printable.hpp"
 #include "core/base/suggestion.hpp"
+#include "core/network/graph/frames_beside.hpp"
 #include "core/network/graph/json.hpp"
 #include "lua/keys.hpp"
 
@@ -34,9 +35,9 @@ std::map<std::string, std::string> with_frame_number(const LuaOptions& options) 
 
 GraphScript::GraphScript(Sandbox& sandbox, const LuaOptions& options)
     : Globals(sandbox, with_frame_number(options)), of_(options.frame) {
-    frame_ = give("frame", of_.number);
+    now_.frame = give("frame", of_.number);
     give("frames", of_.count);
-    fps_ = give("fps", fps_);
+    now_.fps = give("fps", now_.fps);
     give_time();
     offer("keys", &keys);
     luaL_newmetatable(L_, node_type);
@@ -50,27 +51,27 @@ GraphScript::GraphScript(Sandbox& sandbox, const LuaOptions& options)
 // The first frame begins at 0.
 // DECISIONS: frames-alone-are-frames
 void GraphScript::give_time() {
-    if (!own_time_) time_ = give("time", (frame_ - 1) / fps_);
+    if (!now_.own_time) now_.time = give("time", (now_.frame - 1) / now_.fps);
 }
 
 // The value on top of the stack is what the file says of frames.
 void GraphScript::take_rate(lua_State* L, const std::string& name) {
     if (lua_type(L, -1) != LUA_TNUMBER) return;
     const double value = lua_tonumber(L, -1);
-    if (name == "time") own_time_ = true, time_ = value;
-    if (name == "frame") frame_ = value;
+    if (name == "time") now_.own_time = true, now_.time = value;
+    if (name == "frame") now_.frame = value;
     if (name == "fps" && !(value > 0)) return complain(sandbox_.caller(), "'fps', frames per second, must be above 0");
-    if (name == "fps") fps_ = value;
+    if (name == "fps") now_.fps = value;
     give_time();
 }
 
 // Where a file moves and the graph does not say when, it is the time of the frame.
 void GraphScript::place_in_time(Node& scene) const {
     for (auto& entry : scene.entries)
-        if (auto* file = std::get_if<std::string>(&entry.data)) *file = with_frame(*file, static_cast<int>(frame_));
-    const bool blurred = scene.params.contains("shutter");
-    if (of_.asked || blurred) scene.params.try_emplace("time", Value{time_});
-    if (blurred) scene.params.try_emplace("fps", Value{fps_});
+        if (auto* file = std::get_if<std::string>(&entry.data)) *file = with_frame(*file, static_cast<int>(now_.frame));
+    const bool looks_ahead = followed_ || scene.params.contains("shutter");
+    if (of_.asked || looks_ahead) scene.params.try_emplace("time", Value{now_.time});
+    if (looks_ahead) scene.params.try_emplace("fps", Value{now_.fps});
 }
 
 const std::size_t* GraphScript::node_at(lua_State* L, int index) const {
@@ -243,10 +244,12 @@ Graph GraphScript::finish() {
         Node node = made_[number].node;
         for (auto& entry : node.entries) resolve(entry);
         for (auto& [key, value] : node.params) resolve(value);
-        if (node.kind == "Scene") place_in_time(node);
         names.push_back(node.name);
         graph.nodes.push_back(std::move(node));
     }
+    followed_ = asks_for_motion(graph);
+    for (Node& node : graph.nodes)
+        if (node.kind == "Scene") place_in_time(node);
     for (const auto& [node, complaints] : made_) {
         for (const auto& what : complaints)
             complain(node.where, node.kind + (node.name.empty() ? "" : " " + in_quotes(node.name)) + ": " + what);

@@ -19,6 +19,8 @@ public:
 
     /// The nodes, in the order in which they were named. Problems are complete after this.
     Graph finish();
+    /// Of which frame they are.
+    int frame() const { return static_cast<int>(now_.frame); }
 
 private:
     struct Made {
@@ -46,8 +48,12 @@ private:
     void resolve(Value& value) const;
 
     GraphFrame of_;
-    double frame_ = 1, fps_ = 24, time_ = 0;
-    bool own_time_ = false;  // the file says itself what time it is
+    /// What the file has `frame`, `fps` and `time` for.
+    struct Now {
+        double frame = 1, fps = 24, time = 0;
+        bool own_time = false;  // the file says itself what time it is
+    } now_;
+    bool followed_ = false;  // somebody asks how far things move until the next frame
     std::vector<Made> made_;
     std::vector<std::size_t> order_;            // indices into made_, as they were named
     std::map<std::string, std::size_t> named_;  // all names of nodes, second ones too

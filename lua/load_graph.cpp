@@ -8,6 +8,7 @@
 
 #include "core/base/in_quotes.hpp"
 #include "core/network/graph/check.hpp"
+#include "core/network/graph/frames_beside.hpp"
 #include "core/network/graph/json.hpp"
 #include "lua/answer.hpp"
 #include "lua/child.hpp"
@@ -25,15 +26,47 @@ constexpr std::size_t beside_lua = std::size_t{256} << 20;  // bytes for what a 
 
 using Text = std::function<std::string()>;  // read in the child, so that an endless file costs only the child
 
+Graph evaluated(const std::string& file, const std::string& text, const LuaOptions& options) {
+    lua::Sandbox sandbox(file, options.memory);
+    lua::GraphScript script(sandbox, options);
+    sandbox.run(text);
+    Graph graph = script.finish();
+    if (auto problems = script.take_problems(); !problems.empty()) throw UserError(std::move(problems));
+    return graph;
+}
+
+/// The graph as it is in another frame. Throws UserError, which names that, where it can't be.
+Graph graph_in(int frame, const std::string& file, const std::string& text, LuaOptions options) {
+    options.frame.number = frame;
+    options.constants["frame"] = std::to_string(frame);
+    try {
+        return evaluated(file, text, options);
+    } catch (const UserError& error) {
+        auto problems = error.problems();
+        for (Problem& problem : problems)
+            problem.what = "in frame " + std::to_string(frame) + ", which is beside it: " + problem.what;
+        throw UserError(std::move(problems));
+    }
+}
+
+void complete(Graph& graph, const lua::GraphScript& script, const std::string& file, const std::string& text,
+              const LuaOptions& options) {
+    note_frames_beside(graph, [&](int by) { return graph_in(script.frame() + by, file, text, options); });
+}
+void complete(Hosts&, const lua::HostsScript&, const std::string&, const std::string&, const LuaOptions&) {}
+
 template <class Script>
-Answer run_script(const std::string& file, const Text& text, const LuaOptions& options) {
+Answer run_script(const std::string& file, const Text& text_of, const LuaOptions& options) {
     Answer answer;
     try {
         lua::Sandbox sandbox(file, options.memory);
         Script script(sandbox, options);
-        sandbox.run(text());
-        answer.value = to_json(script.finish());
+        const std::string text = text_of();
+        sandbox.run(text);
+        auto value = script.finish();
         answer.problems = script.take_problems();
+        if (answer.problems.empty()) complete(value, script, file, text, options);
+        answer.value = to_json(value);
     } catch (const UserError& error) {
         answer.problems = error.problems();
     } catch (const std::bad_alloc&) {

@@ -9,6 +9,7 @@
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/screen_motion.hpp"
 
 namespace lightnet {
 namespace {
@@ -30,7 +31,11 @@ Rgb of_vector(Vec3 v) { return {v.x, v.y, v.z}; }
 class SurfaceFact final : public LightOp {
 public:
     explicit SurfaceFact(const NodeContext& here)
-        : scene_(here.scene()), eye_(here.scene().seen_from()), key_(here.key()), fact_(fact_called(here.text("of"))) {}
+        : scene_(here.scene()),
+          eye_(here.scene().seen_from()),
+          motion_(here.scene()),
+          key_(here.key()),
+          fact_(fact_called(here.text("of"))) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         for (std::size_t i = 0; i < questions.size(); ++i)
@@ -42,6 +47,7 @@ public:
         const auto& of = std::get<std::string>(node.params.at("of").data);
         if (of == "depth" || of == "distance") return letters_of_depths;
         if (of == "position" || of == "normal" || of == "camera_normal") return letters_of_vectors;
+        if (of == "motion") return letters_of_motion;
         return of == "uv" ? letters_of_uv : usual_letters;
     }
 
@@ -74,6 +80,10 @@ private:
         const Vec2 at = scene_.texture_coordinates(point);
         return {at.x, at.y, 0};
     }
+    Rgb motion(const SurfacePoint&, const Query& question) const {
+        const Vec2 pixels = motion_.of(question);
+        return {pixels.x, pixels.y, 0};
+    }
     // The mean of many samples' weights is the albedo for light that leaves towards the eye.
     Rgb albedo(const SurfacePoint& point, const Query& question) const {
         Samples samples(child(question.stream, key_), question.sample);
@@ -92,6 +102,7 @@ private:
 
     const Scene& scene_;
     Eye eye_;
+    ScreenMotion motion_;
     Key key_;
     Fact fact_;
 };
@@ -104,6 +115,7 @@ const std::vector<std::pair<const char*, SurfaceFact::Fact>> SurfaceFact::facts{
     {"normal", &SurfaceFact::normal},
     {"camera_normal", &SurfaceFact::camera_normal},
     {"uv", &SurfaceFact::uv},
+    {"motion", &SurfaceFact::motion},
     {"albedo", &SurfaceFact::albedo}};
 
 }  // namespace
@@ -112,13 +124,14 @@ Kind surface_fact_kind() {
     return {
         .name = "SurfaceFact",
         .help = "an AOV, no light: one fact about the first surface that the eye meets, mirrors and glass included",
-        .params = {{.name = "of",
-                    .type = ParamType::text,
-                    .help =
-                        "coverage: 1; depth: along the camera's axis; distance: from the eye; position and normal: in "
-                        "the world; camera_normal: x right, y up, z to the eye; uv: of the texture; albedo: of all "
-                        "lobes, towards the eye",
-                    .choices = SurfaceFact::names()}},
+        .params =
+            {{.name = "of",
+              .type = ParamType::text,
+              .help =
+                  "coverage: 1; depth: along the camera's axis; distance: from the eye; position and normal: in "
+                  "the world; camera_normal: x right, y up, z to the eye; uv: of the texture; motion: pixels to the "
+                  "right and upwards until the next frame; albedo: of all lobes, towards the eye",
+              .choices = SurfaceFact::names()}},
         .light = {.facts = true, .letters = SurfaceFact::letters, .paths = always({})},
         .make_light = [](const NodeContext& here) { return std::make_unique<SurfaceFact>(here); },
     };

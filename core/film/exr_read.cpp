@@ -131,7 +131,7 @@ void Parts::read() {
 
 // What the channels of a layer end in; the usual letters, where it has none of ours.
 std::string letters_of(const Parts& file, const std::string& layer) {
-    for (const char* letters : {usual_letters, letters_of_vectors, letters_of_depths, letters_of_uv})
+    for (const char* letters : {usual_letters, letters_of_vectors, letters_of_depths, letters_of_uv, letters_of_motion})
         if (file.has_all(channels_of(layer, letters))) return letters;
     return usual_letters;
 }

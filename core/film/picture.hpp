@@ -11,11 +11,13 @@
 
 namespace lightnet {
 
-/// What the channels of files are called: those of colours, of vectors, of depths and of texture coordinates.
+/// What the channels of files are called: those of colours, of vectors, of depths, of texture coordinates
+/// and of motion in the picture.
 inline constexpr const char* usual_letters = "RGB";
 inline constexpr const char* letters_of_vectors = "XYZ";
 inline constexpr const char* letters_of_depths = "Z";
 inline constexpr const char* letters_of_uv = "UV";
+inline constexpr const char* letters_of_motion = "XY";
 
 /// One contribution to the picture.
 struct PictureLayer {

@@ -88,9 +88,35 @@ void choose_camera(SceneData& scene, const std::string& wanted, const SourceLine
     scene.camera_given = true;
 }
 
-void look_as_wanted(const SceneOverrides& overrides, SceneData& scene, const SourceLine& where) {
+// At one time, who was given before.
+void look_at_one_time(const SceneOverrides& overrides, const std::optional<CameraOverride>& change, SceneData& scene,
+                      const SourceLine& where) {
     if (!overrides.seen_by.empty()) choose_camera(scene, overrides.seen_by, where);
-    if (overrides.camera) change_camera(scene, *overrides.camera, where);
+    if (change) change_camera(scene, *change, where);
+}
+
+SceneData onlookers(const Onlooker& first, const std::vector<SceneCamera>& all) {
+    SceneData scene;
+    scene.camera = first.camera;
+    scene.camera_given = first.given;
+    scene.film = first.film;
+    scene.cameras = all;
+    return scene;
+}
+
+void look_as_wanted(const SceneOverrides& overrides, SceneData& scene, const SourceLine& where) {
+    const SceneData before = onlookers({scene.camera, scene.camera_given, scene.film}, scene.cameras);
+    look_at_one_time(overrides, overrides.camera, scene, where);
+    if (scene.camera.later.empty())  // else the file's own moves, and the graph says nothing of where it is
+        for (const auto& step : overrides.camera_later) {
+            SceneData then = before;
+            look_at_one_time(overrides, step, then, where);
+            scene.camera.later.push_back(then.camera);
+        }
+    if (!scene.next && !overrides.next_camera) return;
+    SceneData then = scene.next ? onlookers(scene.next->seen_by, scene.next->cameras) : before;
+    look_at_one_time(overrides, overrides.next_camera ? overrides.next_camera : overrides.camera, then, where);
+    if (then.camera_given) scene.camera.next = {then.camera};
 }
 
 /// Up as the format has it; else the axis of the world that is up for the camera: scenes stand on z or on y.
@@ -199,12 +225,9 @@ std::optional<Vec3> direction_down(const SceneOverrides& overrides, const Source
 }  // namespace
 
 std::optional<Onlooker> look_again(const SceneOverrides& overrides, const SceneData& changed, const SourceLine& where) {
-    SceneData scene;  // nothing but those who look
-    scene.camera = changed.as_read.camera;
-    scene.camera_given = changed.as_read.given;
-    scene.film = changed.as_read.film;
-    scene.cameras = changed.cameras;
+    SceneData scene = onlookers(changed.as_read, changed.cameras);
     scene.up = changed.up;
+    if (changed.next) scene.next = {{}, changed.next->seen_by, changed.next->cameras};
     look_as_wanted(overrides, scene, where);
     const bool stands_by_camera = overrides.sky || std::holds_alternative<std::string>(overrides.environment);
     if (!scene.camera_given || (stands_by_camera && !(upwards(scene) == upwards(changed)))) return std::nullopt;

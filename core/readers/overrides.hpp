@@ -46,6 +46,8 @@ struct ProfileOverride {
 struct SceneOverrides {
     std::string seen_by{};  // camera of the file, by its name or number (1, 2, …); "": the first one
     std::optional<CameraOverride> camera;
+    std::vector<CameraOverride> camera_later{};   // of one that moves: at evenly spaced steps, until the shutter closes
+    std::optional<CameraOverride> next_camera{};  // one frame later; else as `camera`
     std::variant<std::monostate, Rgb, std::string> environment;  // a colour, or the path of a picture: instead of all
     std::optional<SkyOverride> sky{};
     std::optional<FogOverride> fog{};

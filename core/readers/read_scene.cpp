@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 
 #include "core/readers/gltf/gltf.hpp"
 #include "core/readers/mitsuba/mitsuba.hpp"
+#include "core/readers/moment_of.hpp"
 #include "core/readers/obj/obj.hpp"
 #include "core/readers/pbrt/pbrt.hpp"
 #include "core/readers/ply/ply.hpp"
@@ -123,30 +125,117 @@ std::optional<ShutterSpan> own_shutter(const SceneData& scene, bool timed) {
     return scene.shutter->close > scene.shutter->open ? scene.shutter : std::nullopt;
 }
 
-/// What is said of a shutter, if anything, and all else apart from it.
-SceneData read_all_its_time(Files& files, const std::string& path, SceneConstants constants,
-                            std::span<const SceneFormat> formats) {
-    const auto said = constants.extract(std::string(shutter_constant));
-    const SceneFormat* format = format_of(path, formats);
-    if (!format || !format->moves) return read(files, path, constants, formats);
-    const auto read_at = [&](double seconds) {
-        SceneConstants then = constants;
-        then[std::string(time_constant)] = fmt::format("{}", seconds);
-        return read(files, path, then, formats);
-    };
-    if (said) {
-        const auto time = constants.extract(std::string(time_constant));
-        const double now = time ? seconds_in(time.mapped()) : 0;
-        const std::string& span = said.mapped();
-        return read_in_shutter(read_at, {now + seconds_in(span), now + seconds_in(span.substr(span.find(' ') + 1))},
-                               path);
-    }
-    SceneData scene = read(files, path, constants, formats);
-    const auto own = own_shutter(scene, constants.contains(std::string(time_constant)));
-    if (!own) return scene;
-    scene = {};  // there may not be room for two
-    return read_in_shutter(read_at, *own, path);
+std::optional<double> taken_time(SceneConstants& constants) {
+    const auto time = constants.extract(std::string(time_constant));
+    return time ? std::optional(seconds_in(time.mapped())) : std::nullopt;
 }
+
+std::optional<FrameBeside> taken_frame(SceneConstants& constants, std::string_view which) {
+    const auto said = constants.extract(std::string(which));
+    if (!said) return std::nullopt;
+    const std::string& text = said.mapped();
+    const auto first = text.find(' '), second = text.find(' ', first + 1);
+    FrameBeside frame{seconds_in(text), std::nullopt, text.substr(second + 1)};
+    if (const auto time = text.substr(first + 1, second - first - 1); time != "-") frame.time = seconds_in(time);
+    return frame;
+}
+
+/// One scene at several times, and all that is said of these.
+class TimedReader {
+public:
+    TimedReader(Files& files, const std::string& path, SceneConstants constants, std::span<const SceneFormat> formats)
+        : files_(files),
+          path_(path),
+          formats_(formats),
+          previous_(taken_frame(constants, previous_constant)),
+          next_(taken_frame(constants, next_constant)),
+          constants_(std::move(constants)) {
+        const auto said = constants_.extract(std::string(shutter_constant));
+        if (!said) return;
+        const std::string& span = said.mapped();
+        shutter_ = ShutterSpan{seconds_in(span), seconds_in(span.substr(span.find(' ') + 1))};
+    }
+
+    SceneData read() {
+        SceneData scene = has_other_files() && shutter_ ? in_files_shutter() : in_shutter();
+        if (next_ && next_->time) note_motion(scene);
+        return scene;
+    }
+
+private:
+    bool is_elsewhere(const std::optional<FrameBeside>& frame) const { return frame && !frame->file.empty(); }
+    bool has_other_files() const { return is_elsewhere(previous_) || is_elsewhere(next_); }
+    bool moves() const {
+        const SceneFormat* format = format_of(path_, formats_);
+        return format && format->moves;
+    }
+    SceneData read_as(const std::string& path, const SceneConstants& constants) const {
+        return lightnet::read(files_, path, constants, formats_);
+    }
+    SceneData read_at(const std::string& path, double seconds) const {
+        SceneConstants then = constants_;
+        then[std::string(time_constant)] = fmt::format("{}", seconds);
+        return read_as(path, then);
+    }
+
+    SceneData in_shutter() {
+        if (!moves()) return read_as(path_, constants_);
+        const std::function<SceneData(double)> at = [&](double seconds) { return read_at(path_, seconds); };
+        if (shutter_) {
+            const double now = taken_time(constants_).value_or(0);
+            open_ = shutter_->open;
+            return read_in_shutter(at, {now + shutter_->open, now + shutter_->close}, path_);
+        }
+        SceneData scene = read_as(path_, constants_);
+        const auto own = own_shutter(scene, constants_.contains(std::string(time_constant)));
+        if (!own) return scene;
+        scene = {};  // there may not be room for two
+        return read_in_shutter(at, *own, path_);
+    }
+
+    SceneData in_files_shutter() {
+        FramesAround frames{read_as(path_, constants_)};
+        frames.previous = frame_beside(previous_, frames.now);
+        frames.next = frame_beside(next_, frames.now);
+        const double frame = (next_ ? next_ : previous_)->seconds_per_frame;
+        return blurred_between(frames, {shutter_->open / frame, shutter_->close / frame}, path_);
+    }
+
+    /// None: there is no such frame, as before the first and behind the last.
+    std::optional<SceneData> frame_beside(const std::optional<FrameBeside>& frame, SceneData& now) const {
+        if (!is_elsewhere(frame)) return std::nullopt;
+        std::string why;
+        try {
+            if (!frame->time || !moves()) return read_as(frame->file, constants_);
+            return read_at(frame->file, *frame->time + open_);
+        } catch (const MissingHere&) {
+            throw;
+        } catch (const Error& problem) {
+            why = problem.what();
+        } catch (const UserError& problem) {
+            why = problem.what();
+        }
+        now.warnings.push_back(
+            {{path_, 0}, "stands still between this frame and '" + frame->file + "', which can't be read: " + why});
+        return std::nullopt;
+    }
+
+    void note_motion(SceneData& scene) const {
+        if (is_elsewhere(next_)) {
+            if (auto there = frame_beside(next_, scene)) set_next_frame(scene, std::move(*there));
+        } else if (moves() && !scene.animations.empty()) {
+            set_next_frame(scene, read_at(path_, *next_->time + open_));
+        }
+    }
+
+    Files& files_;
+    const std::string& path_;
+    std::span<const SceneFormat> formats_;
+    std::optional<FrameBeside> previous_, next_;
+    SceneConstants constants_;
+    std::optional<ShutterSpan> shutter_;  // seconds after the time
+    double open_ = 0;                     // seconds after the time at which the scene is as it is at first
+};
 
 /// What each reader would have to look for: names that lead nowhere or in circles.
 void check(const SceneData& scene, const std::string& path) try {
@@ -191,12 +280,17 @@ SceneData read_scene(Files& files, const std::string& path, const SceneConstants
 SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants,
                      std::span<const SceneFormat> formats) {
     Watched watched(files, path);
-    SceneData scene = read_all_its_time(watched, path, constants, formats);
+    SceneData scene = TimedReader(watched, path, constants, formats).read();
     check(scene, path);
     if (!watched.outside().empty())
         scene.warnings.push_back(
             {{path, 0}, reads_outside + ", such as '" + watched.outside() + "': hosts are sent them as well"});
     return scene;
+}
+
+std::string to_constant(const FrameBeside& frame) {
+    return fmt::format("{} {} {}", frame.seconds_per_frame, frame.time ? fmt::format("{}", *frame.time) : "-",
+                       frame.file);
 }
 
 bool is_of_files_outside(const Problem& warning) { return warning.what.starts_with(reads_outside); }

@@ -1,6 +1,7 @@
 // The way in for scenes.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,14 @@ SceneData read_scene(Files& files, const std::string& path, const SceneConstants
 /// The scene in a file of one of these formats, where read_scene() knows those of scene_formats() alone.
 SceneData read_scene(Files& files, const std::string& path, const SceneConstants& constants,
                      std::span<const SceneFormat> formats);
+
+/// What a scene is in a frame beside its own, as one of its constants.
+struct FrameBeside {
+    double seconds_per_frame = 0;
+    std::optional<double> time{};  // of what moves in it; given where somebody asks how far things move
+    std::string file{};            // "": the same
+};
+std::string to_constant(const FrameBeside& frame);
 
 /// Is a scene's warning the one that hosts are sent files from outside of its folder?
 bool is_of_files_outside(const Problem& warning);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/math/box.hpp"
+#include "core/readers/moment_of.hpp"
 
 namespace lightnet {
 namespace {
@@ -19,55 +20,10 @@ constexpr std::size_t most_parts = 32;
 constexpr double allowed = 1e-3;  // of the size of a thing
 constexpr double allowed_of_view = 2e-4;
 
-/// What is not as it was at first, by its index.
-struct Moment {
-    std::map<std::uint32_t, ShapeGeometry> shapes;
-    std::map<std::uint32_t, Matrix> instances;
-    std::map<std::uint32_t, BareLight> lights;
-    std::vector<CameraData> cameras;  // that of the scene, then its list
-};
-
 double size_of(const ShapeGeometry& shape) {
     Box box;
     add_to(box, shape, Matrix{});
     return box.empty() ? 0 : double{length(box.size())};
-}
-
-// What of a mesh moves.
-ShapeGeometry positions_of(ShapeGeometry shape) {
-    auto* mesh = std::get_if<Mesh>(&shape);
-    if (!mesh) return shape;
-    Mesh moved;
-    moved.positions = std::move(mesh->positions);
-    moved.normals = std::move(mesh->normals);
-    return moved;
-}
-
-bool same_place(const Mesh& a, const Mesh& b) { return a.positions == b.positions && a.normals == b.normals; }
-bool same_place(const Sphere& a, const Sphere& b) {
-    return a.center == b.center && a.radius == b.radius && a.to_world.m == b.to_world.m;
-}
-bool same_place(const Quadric& a, const Quadric& b) { return a.to_world.m == b.to_world.m; }
-bool same_place(const Curves& a, const Curves& b) { return a.points == b.points; }
-bool same_place(const ShapeGeometry& a, const ShapeGeometry& b) {
-    return std::visit([&](const auto& one) { return same_place(one, std::get<std::decay_t<decltype(one)>>(b)); }, a);
-}
-
-bool same_parts(const ShapeGeometry& a, const ShapeGeometry& b) {
-    if (a.index() != b.index()) return false;
-    if (std::holds_alternative<Curves>(a)) return same_place(a, b);  // they stand still
-    const auto *mesh = std::get_if<Mesh>(&a), *other = std::get_if<Mesh>(&b);
-    return !mesh || (mesh->positions.size() == other->positions.size() &&
-                     mesh->normals.size() == other->normals.size() && mesh->triangles == other->triangles);
-}
-
-bool same_place(const BareLight& a, const BareLight& b) {
-    return std::visit(
-        [&]<IsLight L>(const L& one) {
-            if constexpr (IsNear<L>) return one.stands_as(std::get<L>(b));
-            return true;
-        },
-        a);
 }
 
 double distance(const Matrix& a, const Matrix& b, double size) {
@@ -137,8 +93,11 @@ public:
     ShutterReader(const std::function<SceneData(double)>& read_at, const ShutterSpan& shutter, const std::string& file)
         : read_at_(read_at), shutter_(shutter), file_(file), scene_(read_at(shutter.open)) {}
 
+    bool holds_animations() const { return !scene_.animations.empty(); }
+    /// As it is at first, where nothing moves.
+    SceneData still() { return std::move(scene_); }
     SceneData read() {
-        if (scene_.animations.empty() || !(shutter_.close > shutter_.open)) return std::move(scene_);
+        if (!(shutter_.close > shutter_.open)) return still();
         for (const auto& object : scene_.objects) {
             double most = 0;
             for (const auto shape : object.shapes) most = std::max(most, size_of(scene_.shapes[shape].geometry));
@@ -167,38 +126,14 @@ public:
 
 private:
     Moment moment(double part) {
-        SceneData there = read_at_(shutter_.open + part * (shutter_.close - shutter_.open));
-        Moment moment;
-        const bool same = there.shapes.size() == scene_.shapes.size() &&
-                          there.instances.size() == scene_.instances.size() &&
-                          there.lights.size() == scene_.lights.size() && there.cameras.size() == scene_.cameras.size();
-        if (!same) {
+        Moment moment = moment_of(read_at_(shutter_.open + part * (shutter_.close - shutter_.open)), scene_);
+        if (moment.has_other_things)
             warn({file_, 0}, "it has other parts while the shutter is open: all but its camera stands still");
-            if (there.cameras.size() == scene_.cameras.size()) take_cameras(there, moment);
-            return moment;
-        }
-        for (std::uint32_t i = 0; i < there.shapes.size(); ++i) take_shape(i, there.shapes[i].geometry, moment);
-        for (std::uint32_t i = 0; i < there.instances.size(); ++i)
-            if (there.instances[i].object == scene_.instances[i].object &&
-                there.instances[i].to_world.m != scene_.instances[i].to_world.m)
-                moment.instances.emplace(i, there.instances[i].to_world);
-        for (std::uint32_t i = 0; i < there.lights.size(); ++i)
-            if (there.lights[i].index() == scene_.lights[i].index() && !same_place(scene_.lights[i], there.lights[i]))
-                moment.lights.emplace(i, there.lights[i]);
-        take_cameras(there, moment);
-        return moment;
-    }
-    void take_shape(std::uint32_t i, ShapeGeometry& there, Moment& moment) {
-        const Shape& first = scene_.shapes[i];
-        if (!same_parts(first.geometry, there)) {
+        for (const auto i : moment.other_shapes) {
             broken_.insert(i);
-            return warn(first.where, "a shape has other parts while the shutter is open: it stands still");
+            warn(scene_.shapes[i].where, "a shape has other parts while the shutter is open: it stands still");
         }
-        if (!same_place(first.geometry, there)) moment.shapes.emplace(i, positions_of(std::move(there)));
-    }
-    static void take_cameras(const SceneData& there, Moment& moment) {
-        moment.cameras.push_back(there.camera);
-        for (const auto& one : there.cameras) moment.cameras.push_back(one.camera);
+        return moment;
     }
     void warn(const SourceLine& where, const std::string& what) {
         const Problem problem{where, what};
@@ -299,7 +234,29 @@ private:
 
 SceneData read_in_shutter(const std::function<SceneData(double seconds)>& read_at, const ShutterSpan& shutter,
                           const std::string& file) {
-    return ShutterReader(read_at, shutter, file).read();
+    ShutterReader reader(read_at, shutter, file);
+    return reader.holds_animations() ? reader.read() : reader.still();
+}
+
+SceneData blurred_between(const FramesAround& frames, const ShutterSpan& shutter, const std::string& file) {
+    std::optional<Moment> before, after;
+    if (frames.previous) before = moment_of(*frames.previous, frames.now);
+    if (frames.next) after = moment_of(*frames.next, frames.now);
+    const std::function<SceneData(double)> at = [&](double frame) {
+        const auto& there = frame < 0 ? before : after;
+        return there ? on_the_way(frames.now, *there, std::fabs(frame)) : frames.now;
+    };
+    SceneData scene = ShutterReader(at, shutter, file).read();
+    for (const auto* there : {&before, &after}) {
+        if (!*there) continue;
+        if ((*there)->has_other_things)
+            scene.warnings.push_back(
+                {{file, 0}, "the frame beside it has other parts: all but its camera stands still"});
+        for (const auto i : (*there)->other_shapes)
+            scene.warnings.push_back(
+                {scene.shapes[i].where, "a shape has other parts in the frame beside it: it stands still"});
+    }
+    return scene;
 }
 
 }  // namespace lightnet

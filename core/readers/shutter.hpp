@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/scene/data/scene_data.hpp"
@@ -14,5 +15,15 @@ namespace lightnet {
 /// and so do colours and brightness of what is no point or spot light: warnings say so of the former.
 SceneData read_in_shutter(const std::function<SceneData(double seconds)>& read_at, const ShutterSpan& shutter,
                           const std::string& file);
+
+/// A scene in one frame of a sequence of files, and in those beside it, if they are there.
+struct FramesAround {
+    SceneData now;
+    std::optional<SceneData> previous{}, next{};
+};
+
+/// The scene of the middle one as read_in_shutter() gives it, on straight ways between the frames. `shutter`: in frames
+/// after that one, from -1 to 1.
+SceneData blurred_between(const FramesAround& frames, const ShutterSpan& shutter, const std::string& file);
 
 }  // namespace lightnet

@@ -650,6 +650,14 @@ class Scene(Node):
         when it opens and closes, after the time: { 0, 0.5 } is half a frame, a shutter of 180 degrees; what moves in the file meanwhile is blurred; else that of the file's own camera (pbrt, Mitsuba), in a still
     fps: number, 1e-06 …
         frames per second, of which the shutter's are; else those of the graph
+    next: table
+        the scene one frame later, for a shutter and for who asks for motion; found in the graph's own frames
+    next_camera: table
+        'camera' one frame later; found in the graph's own frames
+    previous: table
+        the scene one frame earlier, for a shutter that opens then; found in the graph's own frames
+    previous_camera: table
+        'camera' one frame earlier; found in the graph's own frames
     material: text, "clay"
         clay: all surfaces are grey and diffuse; lamps and cut-outs stay
     groups: table of names
@@ -679,6 +687,10 @@ class Scene(Node):
         time: float | None = ...,
         shutter: Sequence[float] | None = ...,
         fps: float | None = ...,
+        next: Mapping[str, Any] | None = ...,
+        next_camera: Mapping[str, Any] | None = ...,
+        previous: Mapping[str, Any] | None = ...,
+        previous_camera: Mapping[str, Any] | None = ...,
         material: Literal["clay"] | None = ...,
         groups: Mapping[str, str | Sequence[str]] | None = ...,
         ies: Mapping[str, str | Sequence[str]] | None = ...,
@@ -715,14 +727,14 @@ class Select(Node):
 class SurfaceFact(Node):
     """an AOV, no light: one fact about the first surface that the eye meets, mirrors and glass included.
 
-    of: text, "coverage" | "depth" | "distance" | "position" | "normal" | "camera_normal" | "uv" | "albedo"
-        coverage: 1; depth: along the camera's axis; distance: from the eye; position and normal: in the world; camera_normal: x right, y up, z to the eye; uv: of the texture; albedo: of all lobes, towards the eye
+    of: text, "coverage" | "depth" | "distance" | "position" | "normal" | "camera_normal" | "uv" | "motion" | "albedo"
+        coverage: 1; depth: along the camera's axis; distance: from the eye; position and normal: in the world; camera_normal: x right, y up, z to the eye; uv: of the texture; motion: pixels to the right and upwards until the next frame; albedo: of all lobes, towards the eye
     """
 
     def __init__(
         self,
         *inputs: Node,
-        of: Literal["coverage", "depth", "distance", "position", "normal", "camera_normal", "uv", "albedo"] | None = ...,
+        of: Literal["coverage", "depth", "distance", "position", "normal", "camera_normal", "uv", "motion", "albedo"] | None = ...,
         name: str | None = ...,
     ) -> None: ...
 

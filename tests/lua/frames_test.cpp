@@ -90,5 +90,46 @@ TEST(Keys, SayWhatIsWrong) {
     EXPECT_THAT(mistake("x = keys({ 1, 2 }, 'now')"), HasSubstr("where to look is a number"));
 }
 
+const std::string sequence = "eye = keys { [1] = { 0, 0, 5 }, [11] = { 1, 0, 5 } }\n";
+
+Graph with_shutter(const std::string& scene, GraphFrame frame = {3, 10, true}) {
+    return parse_graph(sequence + "scene = Scene { " + scene + " }", "graph.lua", {.constants = {}, .frame = frame});
+}
+
+std::string text_of(const Graph& graph, const std::string& name) {
+    const auto& params = graph.nodes.at(0).params;
+    return params.contains(name) ? to_string(params.at(name)) : "";
+}
+
+TEST(GraphFrames, KnowThoseBesideThemWhereAShutterIsOpen) {
+    const auto later = with_shutter("'mesh.####.obj', camera = { from = eye }, shutter = { 0, 0.5 }");
+    EXPECT_THAT(text_of(later, "next"), HasSubstr("mesh.0004.obj"));
+    EXPECT_THAT(text_of(later, "next_camera"), HasSubstr("0.3"));
+    EXPECT_EQ(text_of(later, "previous") + text_of(later, "previous_camera"), "") << "it is not open then";
+    const auto around = with_shutter("'mesh.####.obj', shutter = { -0.25, 0.25 }");
+    EXPECT_THAT(text_of(around, "previous"), HasSubstr("mesh.0002.obj"));
+    EXPECT_EQ(text_of(around, "next_camera"), "");
+    const auto still = with_shutter("'mesh.obj', shutter = { 0, 0.5 }");
+    EXPECT_EQ(text_of(still, "next"), "") << "nothing is another there";
+    EXPECT_EQ(text_of(with_shutter("'mesh.####.obj'"), "next"), "") << "nobody looks there";
+}
+
+TEST(GraphFrames, KnowTheNextOneWhereMotionIsAskedFor) {
+    const auto graph = parse_graph("fps = 10\nscene = Scene { 'a.glb' }\nmotion = SurfaceFact { of = 'motion' }",
+                                   "graph.lua", {.constants = {}, .frame = {3, 10, true}});
+    const auto& next = std::get<Table>(graph.nodes.at(0).params.at("next").data).named;
+    EXPECT_DOUBLE_EQ(std::get<double>(next.at("time").data), 0.3);
+    EXPECT_FALSE(next.contains("file")) << "it is the same";
+    const auto still = parse_graph("scene = Scene { 'a.glb' } motion = SurfaceFact { of = 'motion' }", "graph.lua");
+    EXPECT_EQ(std::get<double>(still.nodes.at(0).params.at("time").data), 0) << "as with a shutter";
+}
+
+TEST(GraphFrames, TellMistakesOfThoseBesideThem) {
+    const std::string broken = "if frame > 1 then frame = nil + 1 end ";
+    EXPECT_THAT(mistake(broken + "scene = Scene { 'a.####.obj', shutter = { 0, 1 } }"),
+                HasSubstr("in frame 2, which is beside it: "));
+    EXPECT_EQ(mistake(broken + "scene = Scene { 'a.####.obj' }"), "");
+}
+
 }  // namespace
 }  // namespace lightnet::lua_frames_test

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "core/base/error.hpp"
 #include "tests/support/small_network.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -26,7 +28,8 @@ using Pictures = std::map<std::string, std::vector<Rgb>>;
 Pictures facts_of(SceneData data, std::uint32_t samples = 4) {
     SmallNetwork network(std::move(data), 8, 8);
     std::vector<std::string> shown;
-    for (const char* of : {"coverage", "depth", "distance", "position", "normal", "camera_normal", "uv", "albedo"}) {
+    for (const char* of :
+         {"coverage", "depth", "distance", "position", "normal", "camera_normal", "uv", "motion", "albedo"}) {
         network.add(of, "SurfaceFact", {}, {{"of", Value{std::string(of)}}});
         shown.emplace_back(of);
     }
@@ -71,6 +74,57 @@ TEST(SurfaceFact, IsTheAlbedoOfItsMaterial) {
     data.camera = camera({0, 0, 2}, {0, 0, 0}, 60);
     data.camera_given = true;
     expect_near(left(facts_of(std::move(data)), "albedo"), {0.25f, 0.25f, 0.25f}, 1e-5f);
+}
+
+// 8 pixels for 90 degrees: at distance d one unit to the right is 4 / d pixels.
+
+TEST(SurfaceFact, IsTheMotionOfAMeshUntilTheNextFrame) {
+    SceneData data = half_a_wall();
+    Mesh moved = std::get<Mesh>(data.shapes[0].geometry);
+    for (Vec3& vertex : moved.positions) vertex = vertex + Vec3{0.5f, 0.25f, 0};
+    data.next.emplace().motion.shapes = {{0, {moved}}};
+    expect_near(left(facts_of(std::move(data)), "motion"), {1, 0.5f, 0}, 1e-4f);
+}
+
+TEST(SurfaceFact, IsTheMotionThatTheCameraMakes) {
+    SceneData data = half_a_wall();
+    data.camera.next = {camera({0.5f, 0, 2}, {0.5f, 0, 0}, 90)};
+    expect_near(left(facts_of(data), "motion"), {-1, 0, 0}, 1e-4f);
+    data.camera.next = {camera({0, 0, -2}, {0, 0, -5}, 90)};
+    EXPECT_EQ(left(facts_of(data), "motion"), Rgb{}) << "then it is behind the eye";
+    data.camera.next.clear();
+    EXPECT_EQ(left(facts_of(data), "motion"), Rgb{}) << "nothing is said of the next frame";
+}
+
+TEST(SurfaceFact, IsTheMotionOfAnInstance) {
+    SceneData data = half_a_wall();
+    data.objects.push_back({"", {0}});
+    const auto moved_by = [](double x) {
+        Matrix m;
+        m.m[0][3] = x;
+        return m;
+    };
+    data.instances = {{0, moved_by(-0.25), {}}};
+    data.next.emplace().motion.instances = {{0, {moved_by(0.25)}}};
+    expect_near(left(facts_of(std::move(data)), "motion"), {1, 0, 0}, 1e-4f);
+}
+
+TEST(SurfaceFact, IsTheMotionOfASphereThatTurns) {
+    SceneData data;
+    add(data, ball({}, 1), diffuse(data, 0.5f));
+    data.camera = camera({0, 0, 2}, {0, 0, 0}, 90);
+    data.camera_given = true;
+    const double turn = 0.2;
+    Sphere later{{}, 1};
+    later.to_world.m = {
+        {{std::cos(turn), 0, std::sin(turn), 0}, {0, 1, 0, 0}, {-std::sin(turn), 0, std::cos(turn), 0}, {0, 0, 0, 1}}};
+    data.next.emplace().motion.shapes = {{0, {later}}};
+    const auto facts = facts_of(std::move(data), 256);
+    const Rgb at = facts.at("position")[8 * 3 + 3];
+    const auto seen = [](double x, double z) { return 4 * x / (2 - z); };
+    const double x = std::cos(turn) * at.r + std::sin(turn) * at.b, z = -std::sin(turn) * at.r + std::cos(turn) * at.b;
+    EXPECT_NEAR(facts.at("motion")[8 * 3 + 3].r, seen(x, z) - seen(at.r, at.b), 0.1);
+    EXPECT_GT(facts.at("motion")[8 * 3 + 3].r, 0.5);
 }
 
 TEST(SurfaceFact, IsNoLight) {

@@ -55,6 +55,29 @@ TEST(SceneOverrides, MoveTheCamera) {
     expect_near(transform_direction(m, {1, 0, 0}), {0, 0, -1});  // still no mirror
 }
 
+TEST(SceneOverrides, MoveTheCameraWhileTheShutterIsOpen) {
+    CameraOverride first, step, later;
+    first.from = Vec3{5, 0, 0}, first.to = Vec3{};
+    step = later = first;
+    step.from = Vec3{5, 1, 0}, later.from = Vec3{5, 2, 0}, later.fov = 20;
+    auto wanted = camera(first);
+    wanted.camera_later = {step, later};
+    wanted.next_camera = later;
+    const auto eye = [](const CameraData& camera) { return transform_point(camera.to_world, {0, 0, 0}); };
+    const auto scene = changed(with_camera(), wanted);
+    ASSERT_EQ(scene.camera.later.size(), 2U);
+    expect_near(eye(scene.camera), {5, 0, 0});
+    expect_near(eye(scene.camera.later[0]), {5, 1, 0});
+    expect_near(eye(scene.camera.later[1]), {5, 2, 0});
+    EXPECT_EQ(scene.camera.later[1].fov, 20);
+    ASSERT_EQ(scene.camera.next.size(), 1U);
+    expect_near(eye(scene.camera.next[0]), {5, 2, 0});
+    const auto again = look_again(wanted, changed(with_camera(), {}), {"g.lua", 3});
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->camera.later.size(), 2U) << "as when the scene is read for it";
+    EXPECT_EQ(again->camera.next.size(), 1U);
+}
+
 TEST(SceneOverrides, LetAnotherLookAtAChangedSceneAsIfItHadBeenReadForThat) {
     CameraOverride first, second;
     first.from = Vec3{5, 0, 0}, first.to = Vec3{}, first.fov = 20;

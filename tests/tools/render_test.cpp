@@ -65,6 +65,37 @@ TEST(Render, MakesAGraphOfASceneFile) {
     EXPECT_EQ(run.read->scene.shapes.size(), 1u) << "read once, for its size and for the run";
 }
 
+TEST(Render, BlursASequenceOfFilesTowardsTheNext) {
+    Bench lightnet;
+    const auto triangle = [](const std::string& x) { return "v " + x + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"; };
+    const auto first = lightnet.write("m.01.obj", triangle("0"));
+    lightnet.write("m.02.obj", triangle("4"));
+    const auto files = std::filesystem::path(first).parent_path() / "m.##.obj";
+    EXPECT_EQ(lightnet({"render", files, "--frames", "1", "--shutter", "180", "-o", "x.##.exr"}), 7) << lightnet.err;
+    const auto& motion = lightnet.runs.at(0).read->scene.motion;
+    ASSERT_EQ(motion.shapes.size(), 1U);
+    EXPECT_FLOAT_EQ(std::get<Mesh>(motion.shapes[0].later.back()).positions.at(0).x, 2) << "half a frame";
+}
+
+TEST(Render, MovesTheCameraOfAGraphBetweenItsFrames) {
+    Graph graph;
+    graph.nodes = {{"scene", "Scene", {{std::string("a.obj")}}, {}, {}}, {"image", "RayTracer", {}, {}, {}}};
+    const auto camera = [](double x) {
+        return Value{Table{{}, {{"from", {Table{{{x}, {0.0}, {5.0}}, {}}}}, {"fov", {40 + x}}}}};
+    };
+    auto& params = graph.nodes[0].params;
+    params = {{"camera", camera(0)},           {"next_camera", camera(4)},
+              {"previous_camera", camera(-8)}, {"shutter", {Table{{{-0.25}, {0.25}}, {}}}},
+              {"environment_scale", {1.0}},    {"exposure", {0.0}}};
+    graph.nodes[1].params["scene"] = {NodeRef{"scene"}};
+    const auto overrides = scene_overrides(graph, Registry{standard_nodes()});
+    EXPECT_FLOAT_EQ(overrides.camera->from->x, -2) << "as the shutter opens";
+    ASSERT_EQ(overrides.camera_later.size(), 8U);
+    EXPECT_FLOAT_EQ(overrides.camera_later[3].from->x, 0);
+    EXPECT_FLOAT_EQ(overrides.camera_later[7].from->x, 1);
+    EXPECT_FLOAT_EQ(*overrides.camera_later[7].fov, 41);
+}
+
 // What hosts read by the graph is what was read here for the picture's size.
 TEST(Render, ReadsTheSceneByTheConstantsOfItsGraph) {
     Bench lightnet;

@@ -11,6 +11,7 @@
 #include "core/base/frame_name.hpp"
 #include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
+#include "core/network/graph/frames_beside.hpp"
 #include "core/network/graph/value.hpp"
 #include "lua/load_graph.hpp"
 #include "tools/cli/lightings.hpp"
@@ -52,6 +53,26 @@ void override_scene(Node& scene, const RenderedScene& wanted) {
     scene.params["shutter"] = {Table{{{0.0}, {wanted.shutter / 360}}, {}}};
     scene.params.try_emplace("fps", Value{wanted.fps > 0 ? wanted.fps : usual_fps});
     scene.params.try_emplace("time", Value{0.0});
+}
+
+/// What stands in the place of a graph's own scene.
+std::vector<Value> scene_entry(const RenderedScene& wanted, int by) {
+    return {{from_anywhere(with_frame(wanted.file, wanted.frame.number + by))}};
+}
+
+/// The graph with the scene as it is so many frames later.
+Graph in_frame(int by, Graph graph, const RenderedScene& wanted) {
+    const auto number = [](Node& node, const char* name) {
+        const auto found = node.params.find(name);
+        return found == node.params.end() ? nullptr : std::get_if<double>(&found->second.data);
+    };
+    for (auto& node : graph.nodes) {
+        if (node.kind != "Scene") continue;
+        if (has_frame_place(wanted.file)) node.entries = scene_entry(wanted, by);
+        const double* rate = number(node, "fps");
+        if (double* time = number(node, "time")) *time += by / (rate ? *rate : usual_fps);
+    }
+    return graph;
 }
 
 Graph own_graph(const RenderedScene& wanted, const Lighting& lighting) {
@@ -98,10 +119,14 @@ RenderGraph render_graph(const RenderedScene& wanted) {
         GraphFile file = read_graph(wanted.lighting, {.constants = std::move(constants), .frame = wanted.frame});
         result = {std::move(file.graph), std::move(file.problems)};
         for (auto& node : result.graph.nodes)
-            if (node.kind == "Scene") node.entries = {{from_anywhere(with_frame(wanted.file, wanted.frame.number))}};
+            if (node.kind == "Scene") {
+                node.entries = scene_entry(wanted, 0);
+                for (const char* own : {"previous", "next"}) node.params.erase(own);
+            }
     }
     for (auto& node : result.graph.nodes)
         if (node.kind == "Scene") override_scene(node, wanted);
+    note_frames_beside(result.graph, [&](int by) { return in_frame(by, result.graph, wanted); });
     return result;
 }
 

@@ -72,7 +72,7 @@ void describe_render(CLI::App& app, RenderOptions& options) {
 /// Of the file that is rendered: those of the graph's scene, as whoever reads it elsewhere takes them.
 std::map<std::string, std::string> constants_of(const Graph& graph) {
     for (const Node& node : graph.nodes)
-        if (node.kind == "Scene") return scene_constants(node);
+        if (node.kind == "Scene") return scene_constants(graph, node);
     return {};
 }
 

@@ -40,7 +40,7 @@ void describe_run(CLI::App& app, RunOptions& options) {
     });
     add_examples(app, {"lightnet run graphs/cornell.lua --samples 16 -o cornell.exr",
                        "lightnet run graphs/cornell.lua --local-workers 2",
-                       "lightnet run graphs/film.lua --frames 1-24 -o film.####.exr"});
+                       "lightnet run graphs/film.lua --frames 1-48 -o film.####.exr"});
 }
 
 RunRequest request_of(const GraphOptions& graph, const RunningOptions& running, const Launcher& launcher) {

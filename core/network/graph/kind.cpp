@@ -68,6 +68,11 @@ std::vector<Param> fog_fields() {
              .optional = true}};
 }
 
+std::vector<Param> frame_beside_fields() {
+    return {{.name = "file", .type = ParamType::text, .help = "else the same", .optional = true},
+            {.name = "time", .help = "of what moves in it; else the same", .unit = "seconds", .optional = true}};
+}
+
 std::vector<std::string> scene_mistakes(const Node& node, const SceneData*) {
     const auto shutter = node.params.find("shutter");
     if (shutter == node.params.end()) return {};
@@ -149,6 +154,27 @@ Kind scene_kind() {
          .help = "frames per second, of which the shutter's are; else those of the graph",
          .least = 1e-6,
          .optional = true},
+        {.name = "next",
+         .type = ParamType::table,
+         .help =
+             "the scene one frame later, for a shutter and for who asks for motion; found in the graph's own frames",
+         .optional = true,
+         .fields = frame_beside_fields()},
+        {.name = "next_camera",
+         .type = ParamType::table,
+         .help = "'camera' one frame later; found in the graph's own frames",
+         .optional = true,
+         .fields = camera_fields()},
+        {.name = "previous",
+         .type = ParamType::table,
+         .help = "the scene one frame earlier, for a shutter that opens then; found in the graph's own frames",
+         .optional = true,
+         .fields = frame_beside_fields()},
+        {.name = "previous_camera",
+         .type = ParamType::table,
+         .help = "'camera' one frame earlier; found in the graph's own frames",
+         .optional = true,
+         .fields = camera_fields()},
         {.name = "material",
          .type = ParamType::text,
          .help = "clay: all surfaces are grey and diffuse; lamps and cut-outs stay",

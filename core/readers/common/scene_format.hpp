@@ -14,10 +14,12 @@ namespace lightnet {
 /// Values for variables of a scene's file, by name.
 using SceneConstants = std::map<std::string, std::string>;
 
-/// Among these, at which time a scene is wanted (seconds), which of its animations, and when a shutter is open (its
-/// opening and its closing, seconds after that time): names that no file can use.
+/// Among these, at which time a scene is wanted (seconds), which of its animations, when a shutter is open (its opening
+/// and its closing, seconds after that time), and what it is in the frames beside its own (see FrameBeside in
+/// read_scene.hpp): names that no file can use.
 inline constexpr std::string_view time_constant = "@time", animation_constant = "@animation",
-                                  shutter_constant = "@shutter";
+                                  shutter_constant = "@shutter", previous_constant = "@previous",
+                                  next_constant = "@next";
 
 /// One folder of core/readers, and one line in the table of read_scene.cpp; or brought by a plugin.
 struct SceneFormat {

@@ -152,7 +152,7 @@ SceneSource scene_source(const Job& job, const Registry& registry) {
     const Node& node = scene_of(job.graph, registry);
     SceneSource source{job.graph.file, job.scene, job.files, node.entries, node.params, {},
                        job.isa,        job.width, job.height};
-    for (const char* name : {"camera", "seen_by", "exposure"})
+    for (const char* name : {"camera", "next_camera", "previous_camera", "seen_by", "exposure"})
         if (auto param = source.params.extract(name)) source.sight.insert(std::move(param));
     return source;
 }

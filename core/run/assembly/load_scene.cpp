@@ -1,5 +1,6 @@
 #include "core/run/assembly/load_scene.hpp"
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -56,6 +57,52 @@ FogOverride fog_override(const Values& fog) {
 
 // Frames per second, where nobody says otherwise.
 constexpr float usual_fps = 24;
+// Steps of a camera that the graph moves: it may turn.
+constexpr int steps_of_camera = 8;
+
+template <class T>
+const T* param_as(const Values& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found == values.end() ? nullptr : std::get_if<T>(&found->second.data);
+}
+
+std::optional<CameraOverride> camera_called(const Values& params, const std::string& name) {
+    const auto* camera = param_as<Table>(params, name);
+    return camera ? std::optional(camera_of(camera->named)) : std::nullopt;
+}
+
+template <class T>
+std::optional<T> between(const std::optional<T>& now, const std::optional<T>& then, float part) {
+    return now && then ? std::optional<T>(*now + (*then - *now) * part) : now;
+}
+CameraOverride between(const CameraOverride& now, const CameraOverride& then, float part) {
+    return {between(now.from, then.from, part), between(now.to, then.to, part),
+            between(now.up, then.up, part),     between(now.fov, then.fov, part),
+            between(now.lens, then.lens, part), between(now.focus, then.focus, part)};
+}
+
+/// The graph's camera as the shutter opens and at later steps, on straight ways between the frames.
+void move_camera(const Values& params, SceneOverrides& overrides) {
+    const auto now = overrides.camera, next = camera_called(params, "next_camera"),
+               previous = camera_called(params, "previous_camera");
+    const auto* span = param_as<Table>(params, "shutter");
+    if (!now || !span || (!next && !previous)) return;
+    const auto frames = [&](std::size_t end) { return float(std::get<double>(span->list.at(end).data)); };
+    const auto at = [&](float frame) {
+        const auto& there = frame < 0 ? previous : next;
+        return there ? between(*now, *there, std::fabs(frame)) : *now;
+    };
+    overrides.camera = at(frames(0));
+    for (int step = 1; step <= steps_of_camera && frames(1) > frames(0); ++step)
+        overrides.camera_later.push_back(at(frames(0) + (frames(1) - frames(0)) * float(step) / steps_of_camera));
+}
+
+std::string frame_beside(const Graph& graph, const Table& frame, double fps) {
+    FrameBeside beside{1 / fps};
+    if (const auto* time = param_as<double>(frame.named, "time")) beside.time = *time;
+    if (const auto* file = param_as<std::string>(frame.named, "file")) beside.file = beside_graph(graph, *file);
+    return to_constant(beside);
+}
 
 }  // namespace
 
@@ -64,8 +111,9 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     SceneOverrides overrides;
     if (const auto chosen = params.find("seen_by"); chosen != params.end())
         overrides.seen_by = std::get<std::string>(chosen->second.data);
-    if (const auto camera = params.find("camera"); camera != params.end())
-        overrides.camera = camera_of(std::get<Table>(camera->second.data).named);
+    overrides.camera = camera_called(params, "camera");
+    overrides.next_camera = camera_called(params, "next_camera");
+    move_camera(params, overrides);
     if (const auto around = params.find("environment"); around != params.end()) {
         if (const auto* file = std::get_if<std::string>(&around->second.data)) {
             overrides.environment = beside_graph(graph, *file);
@@ -94,7 +142,7 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
     return overrides;
 }
 
-std::map<std::string, std::string> scene_constants(const Node& scene) {
+std::map<std::string, std::string> scene_constants(const Graph& graph, const Node& scene) {
     std::map<std::string, std::string> constants;
     const auto given = scene.params.find("constants"), variant = scene.params.find("variant");
     if (given != scene.params.end())
@@ -115,20 +163,24 @@ std::map<std::string, std::string> scene_constants(const Node& scene) {
     if (const auto time = scene.params.find("time"); time != scene.params.end())
         if (std::holds_alternative<double>(time->second.data))
             constants[std::string(time_constant)] = to_string(time->second);
-    if (const auto shutter = scene.params.find("shutter"); shutter != scene.params.end())
-        if (const auto* span = std::get_if<Table>(&shutter->second.data); span && span->list.size() == 2) {
-            const double fps = number(scene.params, "fps").value_or(usual_fps);
-            const auto seconds = [&](std::size_t i) {
-                const auto* frames = std::get_if<double>(&span->list[i].data);
-                return to_string(Value{frames ? *frames / fps : 0});
-            };
-            constants[std::string(shutter_constant)] = seconds(0) + " " + seconds(1);
-        }
+    const auto* rate = param_as<double>(scene.params, "fps");
+    const double fps = rate ? *rate : usual_fps;
+    if (const auto* span = param_as<Table>(scene.params, "shutter"); span && span->list.size() == 2) {
+        const auto seconds = [&](std::size_t i) {
+            const auto* frames = std::get_if<double>(&span->list[i].data);
+            return to_string(Value{frames ? *frames / fps : 0});
+        };
+        constants[std::string(shutter_constant)] = seconds(0) + " " + seconds(1);
+    }
+    if (const auto* frame = param_as<Table>(scene.params, "previous"))
+        constants[std::string(previous_constant)] = frame_beside(graph, *frame, fps);
+    if (const auto* frame = param_as<Table>(scene.params, "next"))
+        constants[std::string(next_constant)] = frame_beside(graph, *frame, fps);
     return constants;
 }
 
 std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry) {
-    return scene_constants(scene_of(graph, registry));
+    return scene_constants(graph, scene_of(graph, registry));
 }
 
 std::optional<Onlooker> another_look(const Graph& graph, const Registry& registry, const SceneData& changed) {

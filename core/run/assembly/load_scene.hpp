@@ -22,8 +22,8 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry);
 
 /// What it says of the variables of the scene's file: for read_scene().
 std::map<std::string, std::string> scene_constants(const Graph& graph, const Registry& registry);
-/// Those of a node of kind Scene, also before anybody has checked it: what is of another type counts for nothing.
-std::map<std::string, std::string> scene_constants(const Node& scene);
+/// Those of its node of kind Scene, also before anybody has checked it: what is of another type counts for nothing.
+std::map<std::string, std::string> scene_constants(const Graph& graph, const Node& scene);
 
 /// A scene as the graph wants it, and what its nodes go on from.
 struct LoadedScene {

@@ -80,7 +80,7 @@ std::string scene_text(const Graph& graph) {
     Graph scenes;
     for (Node node : graph.nodes) {
         if (node.kind != "Scene") continue;
-        node.params.erase("camera");
+        for (const char* sight : {"camera", "next_camera", "previous_camera"}) node.params.erase(sight);
         scenes.nodes.push_back(std::move(node));
     }
     return text_of(std::move(scenes));

@@ -26,6 +26,7 @@ struct CameraData {
     float farthest = std::numeric_limits<float>::infinity();  // the same: what lies beyond it
     std::vector<CameraData> later{};  // at evenly spaced steps, the last when the shutter closes; none: it
                                       // stands still
+    std::vector<CameraData> next{};   // one frame later, where somebody asks how far things move; none: it stands still
 
     bool is_orthographic() const { return std::holds_alternative<Orthographic>(projection); }
 };

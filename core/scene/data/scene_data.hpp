@@ -163,6 +163,13 @@ void visit_members(Is<SceneMotion> auto& motion, const auto& visit) {
     visit(shapes, instances, lights);
 }
 
+/// A scene one frame later.
+struct NextFrame {
+    SceneMotion motion{};                // to where all stands then: one step each; lights are left out
+    Onlooker seen_by{};                  // as its file has it
+    std::vector<SceneCamera> cameras{};  // as those of the scene
+};
+
 struct SceneData {
     std::vector<Shape> shapes;  // those that no object names stand in world space
     std::vector<Object> objects;
@@ -186,14 +193,16 @@ struct SceneData {
     std::optional<ShutterSpan> shutter{};      // as the file itself says
     std::vector<SceneVariant> variants{};      // that the file has
     std::optional<Vec3> up{};                  // of the world, where the format says
+    std::optional<NextFrame> next{};           // where somebody asks how far things move
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
     auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, media,
-           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion, shutter, variants, up] =
-        scene;
+           around, camera, camera_given, cameras, film, warnings, as_read, animations, motion, shutter, variants, up,
+           next] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights, media, around);
     if (!motion.empty()) visit(motion);  // what stands still is what it was before there was any
+    if (next) visit(next->motion);
 }
 
 }  // namespace lightnet
