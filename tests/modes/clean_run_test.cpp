@@ -109,6 +109,38 @@ TEST_F(CleanRun, MayBeMixedBeforeOrAfterwards) {
     EXPECT_EQ(bytes_of(folder / "clean_then_mixed.exr"), bytes_of(folder / "mixed_then_clean.exr"));
 }
 
+// Frames that help each other: in whatever order they are cleaned and mixed, and however many at once.
+TEST_F(CleanRun, JoinsFramesOfASequence) {
+    folder.write("shot.lua", "scene = Scene { '" + graph_file("") +
+                                 "cornell_box.pbrt', camera = { from = keys { [1] = { 278, 273, -800 }, "
+                                 "[3] = { 298, 273, -800 } }, to = { 278, 273, 280 } } }\n"
+                                 "direct, bounce = DirectLighting {}, PathTracing {}\n"
+                                 "light = Combine { direct, bounce }\nmotion = SurfaceFact { of = 'motion' }\n"
+                                 "image = RayTracer { light, show = { motion }, scene = scene, samples = 8, "
+                                 "film = { 40, 32, clean = true } }\n");
+    made({"run", folder.file("shot.lua"), "--frames", "1-3", "-o", folder / "f.####.exr", "--threads", "2"});
+    EXPECT_THAT(made({"clean", folder / "f.####.exr", "--across", "1", "-o", folder / "q.####.exr"}),
+                HasSubstr("q.0003.exr"));
+    const auto joined = bytes_of(folder / "q.0002.exr");
+    EXPECT_NE(joined, bytes_of(folder / "f.0002.clean.exr"));
+    made({"clean", folder / "f.####.exr", "--across", "1", "--frames", "2", "-o", folder / "one.####.exr"});
+    EXPECT_TRUE(bytes_of(folder / "one.0002.exr") == joined);
+    made({"clean", folder / "f.####.exr", "-o", folder / "alone.####.exr"});
+    EXPECT_TRUE(bytes_of(folder / "alone.0002.exr") == bytes_of(folder / "f.0002.clean.exr"));
+
+    made({"remix", folder / "q.####.exr", "bounce=2", "-o", folder / "clean_then_mixed.####.exr"});
+    made({"remix", folder / "f.####.exr", "bounce=2", "-o", folder / "mixed.####.exr"});
+    made({"clean", folder / "mixed.####.exr", "--across", "1", "-o", folder / "mixed_then_clean.####.exr"});
+    EXPECT_TRUE(bytes_of(folder / "clean_then_mixed.0002.exr") == bytes_of(folder / "mixed_then_clean.0002.exr"));
+
+    EXPECT_THAT(made({"clean", folder / "f.0002.exr", "--across", "1"}, 2), HasSubstr("is one picture"));
+    EXPECT_THAT(made({"clean", folder / "f.####.exr", "-o", folder / "x.exr"}, 2), HasSubstr("name it like"));
+    EXPECT_THAT(made({"remix", folder / "f.####.exr", "-o", folder / "x.exr"}, 2), HasSubstr("name it like"));
+    render({"--threads", "2"});
+    std::filesystem::rename(folder / "x.exr", folder / "x.01.exr");
+    EXPECT_THAT(made({"clean", folder / "x.##.exr", "--across", "1"}, 2), HasSubstr("has no vectors to the next frame"));
+}
+
 TEST_F(CleanRun, RefusesWhatIsCleanAndSaysWhatIsLacking) {
     render({"--threads", "2"});
     EXPECT_THAT(made({"clean", folder / "x.clean.exr"}, 2), HasSubstr("is clean already"));

@@ -104,22 +104,32 @@ std::variant<std::vector<int>, std::string> frames_of(std::string_view text) {
     return frames;
 }
 
+namespace {
+
+CLI::Option* add_numbers(CLI::App& verb, std::vector<int>& numbers, const std::string& help) {
+    return verb
+        .add_option_function<std::string>(
+            "--frames", [&numbers](const std::string& text) { numbers = std::get<std::vector<int>>(frames_of(text)); },
+            help)
+        ->type_name("1-240|1-240x2|1,5,9-12")
+        ->check([](const std::string& text) {
+            const auto found = frames_of(text);
+            const auto* mistake = std::get_if<std::string>(&found);
+            return mistake ? *mistake : "";
+        });
+}
+
+}  // namespace
+
 void add_frames(CLI::App& verb, FrameOptions& frames) {
-    auto* const asked =
-        verb.add_option_function<std::string>(
-                "--frames",
-                [&frames](const std::string& text) { frames.numbers = std::get<std::vector<int>>(frames_of(text)); },
-                "render a sequence: a graph's 'frame' and 'time' are those of each, and -o shot.####.exr names the "
-                "pictures")
-            ->type_name("1-240|1-240x2|1,5,9-12")
-            ->check([](const std::string& text) {
-                const auto found = frames_of(text);
-                const auto* mistake = std::get_if<std::string>(&found);
-                return mistake ? *mistake : "";
-            });
+    auto* const asked = add_numbers(verb, frames.numbers,
+                                    "render a sequence: a graph's 'frame' and 'time' are those of each, and -o "
+                                    "shot.####.exr names the pictures");
     takes_amounts(verb.add_option("--fps", frames.fps, "frames per second, instead of the graph's (else 24)"), "N",
                   Least::above_zero)
         ->needs(asked);
 }
+
+void add_only_frames(CLI::App& verb, std::vector<int>& numbers) { add_numbers(verb, numbers, "only these"); }
 
 }  // namespace lightnet

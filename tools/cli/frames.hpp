@@ -23,5 +23,7 @@ std::variant<std::vector<int>, std::string> frames_of(std::string_view text);
 
 /// --frames and --fps
 void add_frames(CLI::App& verb, FrameOptions& frames);
+/// --frames of a sequence that is there
+void add_only_frames(CLI::App& verb, std::vector<int>& numbers);
 
 }  // namespace lightnet

@@ -120,6 +120,14 @@ std::vector<FrameFile> frame_files(const std::string& pattern) {
     return frames;
 }
 
+std::vector<FrameFile> frame_files(const std::string& pattern, const std::vector<int>& wanted) {
+    auto files = frame_files(pattern);
+    if (wanted.empty()) return files;
+    std::erase_if(files, [&](const FrameFile& file) { return std::ranges::find(wanted, file.number) == wanted.end(); });
+    if (files.empty()) throw UserError({pattern, 0}, "none of these frames is there");
+    return files;
+}
+
 std::string missing_frames(const std::vector<FrameFile>& frames) {
     std::string text;
     for (std::size_t i = 0; i + 1 < frames.size(); ++i) {

@@ -19,6 +19,8 @@ struct FrameFile {
 /// The files of a name with a place for the number, like "shot.####.exr", in the order of their numbers. Throws
 /// UserError: the name has no place, or there are none.
 std::vector<FrameFile> frame_files(const std::string& pattern);
+/// Those of them that are wanted; none: all. Throws UserError, also where none of them is there.
+std::vector<FrameFile> frame_files(const std::string& pattern, const std::vector<int>& wanted);
 
 /// Numbers that are missing between the first and the last, in words: "4, 7-9"; "": none.
 std::string missing_frames(const std::vector<FrameFile>& frames);

@@ -38,22 +38,11 @@ void describe_film(CLI::App& verb, FilmOptions& options) {
                     "the film, made by ffmpeg; or numbered pictures: film.####.png (default: shot.mp4)")
         ->type_name("FILM.mp4|FILM.####.png");
     verb.add_option("--sheet", options.sheet, "write all frames small in one picture, too")->type_name("SHEET.png");
-    add_frames(verb, options.frames);
-    verb.get_option("--fps")->remove_needs(verb.get_option("--frames"));
-    verb.get_option("--frames")->description("only these");
+    add_only_frames(verb, options.frames.numbers);
+    takes_amounts(verb.add_option("--fps", options.frames.fps, "frames per second, instead of 24"), "N",
+                  Least::above_zero);
     add_view(verb, options.view);
     add_examples(verb, {"lightnet film film.####.exr -o film.mp4", "lightnet film film.####.exr --sheet sheet.png"});
-}
-
-std::vector<FrameFile> wanted_frames(const FilmOptions& options) {
-    auto files = frame_files(options.pictures);
-    const auto& numbers = options.frames.numbers;
-    if (numbers.empty()) return files;
-    std::erase_if(files, [&](const FrameFile& file) {
-        return std::find(numbers.begin(), numbers.end(), file.number) == numbers.end();
-    });
-    if (files.empty()) throw UserError({options.pictures, 0}, "none of these frames is there");
-    return files;
 }
 
 // Where ffmpeg is not installed, what it would have been given stays.
@@ -84,7 +73,7 @@ int write_film(const FilmOptions& options, const std::vector<FrameFile>& frames,
 }
 
 int make_film(const FilmOptions& options, const Launcher& launcher) {
-    const auto frames = wanted_frames(options);
+    const auto frames = frame_files(options.pictures, options.frames.numbers);
     if (const auto missing = missing_frames(frames); !missing.empty() && options.frames.numbers.empty())
         launcher.err << "warning: frames are missing, and the film goes on without them: " << missing << '\n';
     const auto view = view_of_film(frames, options.view);
