@@ -138,7 +138,8 @@ TEST_F(CleanRun, JoinsFramesOfASequence) {
     EXPECT_THAT(made({"remix", folder / "f.####.exr", "-o", folder / "x.exr"}, 2), HasSubstr("name it like"));
     render({"--threads", "2"});
     std::filesystem::rename(folder / "x.exr", folder / "x.01.exr");
-    EXPECT_THAT(made({"clean", folder / "x.##.exr", "--across", "1"}, 2), HasSubstr("has no vectors to the next frame"));
+    EXPECT_THAT(made({"clean", folder / "x.##.exr", "--across", "1"}, 2),
+                HasSubstr("has no vectors to the next frame"));
 }
 
 TEST_F(CleanRun, RefusesWhatIsCleanAndSaysWhatIsLacking) {

@@ -50,8 +50,8 @@ struct SshRequest {
 /// Which frame of a sequence a run is.
 struct FrameOfSequence {
     int number = 1;
-    std::size_t index = 0, count = 1;               // among those that are to be rendered
-    std::chrono::steady_clock::time_point begun{};  // the sequence
+    std::size_t index = 0, count = 1;                // among those that are to be rendered
+    std::chrono::steady_clock::time_point begun{};   // the sequence
     std::vector<std::pair<int, std::string>> all{};  // frames of it, by number, and what became of each so far
 };
 
