@@ -69,7 +69,7 @@ void GraphScript::take_rate(lua_State* L, const std::string& name) {
 void GraphScript::place_in_time(Node& scene) const {
     for (auto& entry : scene.entries)
         if (auto* file = std::get_if<std::string>(&entry.data)) *file = with_frame(*file, static_cast<int>(now_.frame));
-    const bool looks_ahead = followed_ || scene.params.contains("shutter");
+    const bool looks_ahead = now_.followed || scene.params.contains("shutter");
     if (of_.asked || looks_ahead) scene.params.try_emplace("time", Value{now_.time});
     if (looks_ahead) scene.params.try_emplace("fps", Value{now_.fps});
 }
@@ -247,7 +247,7 @@ Graph GraphScript::finish() {
         names.push_back(node.name);
         graph.nodes.push_back(std::move(node));
     }
-    followed_ = asks_for_motion(graph);
+    now_.followed = asks_for_motion(graph);
     for (Node& node : graph.nodes)
         if (node.kind == "Scene") place_in_time(node);
     for (const auto& [node, complaints] : made_) {

@@ -12,6 +12,13 @@
 
 namespace lightnet::lua {
 
+/// What a graph file has `frame`, `fps` and `time` for.
+struct GraphTime {
+    double frame = 1, fps = 24, time = 0;
+    bool own_time = false;  // the file says itself what time it is
+    bool followed = false;  // somebody asks how far things move until the next frame
+};
+
 /// Makes a node of every `Kind { … }`, and gives it the name of the first global that it is assigned to.
 class GraphScript final : public Globals {
 public:
@@ -48,12 +55,7 @@ private:
     void resolve(Value& value) const;
 
     GraphFrame of_;
-    /// What the file has `frame`, `fps` and `time` for.
-    struct Now {
-        double frame = 1, fps = 24, time = 0;
-        bool own_time = false;  // the file says itself what time it is
-    } now_;
-    bool followed_ = false;  // somebody asks how far things move until the next frame
+    GraphTime now_;
     std::vector<Made> made_;
     std::vector<std::size_t> order_;            // indices into made_, as they were named
     std::map<std::string, std::size_t> named_;  // all names of nodes, second ones too

@@ -10,6 +10,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -38,7 +39,10 @@ TEST_F(Keys, ThatAreUnknownWrongOrMissingAreNamedByBothSides) {
     EXPECT_TRUE(daemon->process->wait_for("fingerprint " + stranger.fingerprint())) << daemon->process->output();
     EXPECT_THAT(refused(place(daemon->endpoint, "stranger"), {}),
                 HasSubstr("it has another key than expected (fingerprint " + stranger.fingerprint()));
-    EXPECT_THAT(refused("place '" + daemon->endpoint + "' {}", {}), HasSubstr("it asks for keys"));
+    // The daemon may close the line before it has said how it speaks: then there is no more than a guess.
+    const auto keyless = start("place '" + daemon->endpoint + "' {}", {});
+    EXPECT_THAT(keyless->wait(), AnyOf(4, 3)) << keyless->output();
+    EXPECT_THAT(keyless->output(), AnyOf(HasSubstr("it asks for keys"), HasSubstr("if it has a key, the hosts file")));
     EXPECT_TRUE(daemon->process->wait_for("somebody who has no key")) << daemon->process->output();
     const Daemon plain(folder);
     EXPECT_THAT(refused(place(plain.endpoint, "daemon"), {}), HasSubstr("or none"));

@@ -71,7 +71,7 @@ TEST(Render, BlursASequenceOfFilesTowardsTheNext) {
     const auto first = lightnet.write("m.01.obj", triangle("0"));
     lightnet.write("m.02.obj", triangle("4"));
     const auto files = std::filesystem::path(first).parent_path() / "m.##.obj";
-    EXPECT_EQ(lightnet({"render", files, "--frames", "1", "--shutter", "180", "-o", "x.##.exr"}), 7) << lightnet.err;
+    EXPECT_EQ(lightnet({"render", files, "--shutter", "180", "-o", "x.exr"}), 7) << lightnet.err;
     const auto& motion = lightnet.runs.at(0).read->scene.motion;
     ASSERT_EQ(motion.shapes.size(), 1U);
     EXPECT_FLOAT_EQ(std::get<Mesh>(motion.shapes[0].later.back()).positions.at(0).x, 2) << "half a frame";
