@@ -14,7 +14,10 @@ fi
 target=$1 seconds=$2
 cmake --preset fuzz --log-level=WARNING >/dev/null
 cmake --build --preset fuzz --target fuzzers
+# Whoever announces more than there is room for is told of that by an exception, in which programs are prepared.
+export ASAN_OPTIONS=allocator_may_return_null=1
 known=()
 [ -d "tests/fuzz/found/$target" ] && known=("tests/fuzz/found/$target")
-FUZZ_TARGET=$target exec build/fuzz/fuzz/fuzz -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
+export FUZZ_TARGET=$target
+exec build/fuzz/fuzz/fuzz -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/fuzz/$target-" "build/fuzz/fuzz/corpus/$target" "${known[@]}"

@@ -10,6 +10,7 @@
 #include "core/base/joined.hpp"
 #include "core/base/json_tree.hpp"
 #include "core/base/name_id.hpp"
+#include "core/base/printable.hpp"
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/scene/camera/camera_matrices.hpp"
 
@@ -28,8 +29,15 @@ std::string manifest_of(const SceneData& scene, NamedBy by) {
     std::map<std::string, std::string> manifest;
     const SurfaceNames names = surface_names(scene, by);
     for (const auto* all : {&names.of_shape, &names.of_instance})
-        for (const auto& name : *all)
-            if (!name.empty()) manifest[name] = fmt::format("{:08x}", std::bit_cast<std::uint32_t>(name_id(name)));
+        for (const auto& name : *all) {
+            if (name.empty()) continue;
+            const auto id = fmt::format("{:08x}", std::bit_cast<std::uint32_t>(name_id(name)));
+            // what is no UTF-8 is told by what stands for its bytes, which may be somebody's own name
+            if (const auto told = in_utf8(name); told == name)
+                manifest[told] = id;
+            else
+                manifest.try_emplace(told, id);
+        }
     return to_text(manifest, {.ascii = true});
 }
 
