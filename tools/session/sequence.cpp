@@ -91,9 +91,7 @@ private:
     void open_to_watchers() {
         const auto& watch = sequence_.frames.front().watch;
         if (!watch) return;
-        server_.emplace(WatchServer::Options{*watch, new_token(), watch_page()},
-                        WatchStage{R"({"hello":null})", std::make_shared<WatchBoard>(Window{}, 1),
-                                   [](const WatchCommand& command) { command.answer("not yet"); }});
+        server_.emplace(WatchServer::Options{*watch, new_token(), watch_page()}, stage_before_runs());
         handover_.server = &*server_;
         std::cerr << "watch it at " << server_->url() << std::endl;
     }

@@ -150,8 +150,7 @@ private:
         if (!session_.watch) return;
         WatchServer::Options options{*session_.watch, new_token(), watch_page()};
         options.edit = [this](std::string line) { queue_.add(std::move(line)); };
-        server_.emplace(std::move(options), WatchStage{R"({"hello":null})", std::make_shared<WatchBoard>(Window{}, 1),
-                                                       [](const WatchCommand& command) { command.answer("not yet"); }});
+        server_.emplace(std::move(options), stage_before_runs());
         handover_.server = &*server_;
         events_.show_to(&*server_);
         std::cerr << "watch it at " << server_->url() << std::endl;

@@ -214,6 +214,11 @@ struct WatchServer::Parts {
     }
 };
 
+WatchStage stage_before_runs() {
+    return {R"({"hello":null})", std::make_shared<WatchBoard>(Window{}, 1),
+            [](const WatchCommand& command) { command.answer("not yet"); }};
+}
+
 WatchServer::WatchServer(Options options, WatchStage stage)
     : parts_(std::make_unique<Parts>(std::move(options), std::move(stage))) {}
 WatchServer::~WatchServer() = default;

@@ -34,6 +34,9 @@ struct WatchStage {
     std::function<void(const PixelWish&, std::function<void(std::string)> reply)> explain = {};
 };
 
+/// Where several runs are shown on one page: until the first of them begins.
+WatchStage stage_before_runs();
+
 /// HTTP and WebSocket, on a thread of its own. The run writes on the board and never waits; whoever is too slow to take
 /// what changes is dropped, and so is whoever says what has no sense.
 ///
