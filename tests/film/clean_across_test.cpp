@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -139,6 +140,14 @@ TEST(CleanAcross, GoesAsFarAsFramesFitTogether) {
     EXPECT_EQ(joined_across(other, 2).beauty, alone.beauty);
     frames.emplace(5, frames.at(3));
     EXPECT_EQ(joined_across(frames, 5).beauty, frames.at(5).beauty) << "frame 4 is missing";
+}
+
+TEST(CleanAcross, TakesNoNumbersThatAreNone) {
+    auto frames = three(waves, {});
+    frames.at(1).layers[0].pixels[side * 20 + 20] = {std::numeric_limits<float>::infinity(), 0, 0};
+    for (const int frame : {1, 2})
+        frames.at(frame).shown[0].pixels[side * 21 + 20].r = std::numeric_limits<float>::quiet_NaN();
+    for (const Rgb& pixel : joined_across(frames, 2).beauty) ASSERT_TRUE(std::isfinite(pixel.r + pixel.g + pixel.b));
 }
 
 TEST(CleanAcross, NeedsVectorsAndErrors) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "core/base/math/vec.hpp"
@@ -17,6 +18,8 @@ constexpr std::size_t rows_of_piece = 16;
 // Of the way back to a point of the frame before: each step takes what is left of it by as much as motion differs
 // there.
 constexpr int steps_back = 4;
+// Of differences, in parts of what noise makes of them: beyond that a frame counts for nothing.
+constexpr float too_far_apart = 1000;
 
 const PictureLayer* layer_of(const Picture& picture, const auto& wanted) {
     const auto found = std::ranges::find_if(picture.shown, wanted);
@@ -114,6 +117,7 @@ public:
                 const auto around = place ? frame.around(*place) : std::nullopt;
                 if (!around) break;
                 const float apart = difference(x, y, frame, *place);
+                if (!(apart < too_far_apart)) continue;  // no number, where a foreign file holds one that is none
                 shares.push_back({&frame, *around, 1 / (1 + apart * apart), std::max(0.0f, 1 - apart)});
             }
         }
@@ -142,7 +146,7 @@ private:
                     count += 1;
                 }
             }
-        return count > 0 ? sum / count : 1e6f;
+        return count > 0 ? sum / count : too_far_apart;
     }
 
     const std::map<int, Frame>& frames_;
@@ -174,7 +178,7 @@ Picture joined_across(const std::map<int, Picture>& pictures, int which) {
     for (const auto& [number, picture] : pictures)
         if (fit_together(own, picture)) frames.emplace(number, picture);
     Picture made = own;
-    PictureLayer* const error = const_cast<PictureLayer*>(error_of(made));
+    const auto error = std::ranges::find(made.shown, std::string(clean_error), &PictureLayer::name);
     const Joining joining(frames, which);
     cleaning::in_large_pieces(
         own.height,
