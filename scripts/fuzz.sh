@@ -14,8 +14,6 @@ fi
 target=$1 seconds=$2
 cmake --preset fuzz --log-level=WARNING >/dev/null
 cmake --build --preset fuzz --target fuzzers
-# Whoever announces more than there is room for is told of that by an exception, in which programs are prepared.
-export ASAN_OPTIONS=allocator_may_return_null=1
 known=()
 [ -d "tests/fuzz/found/$target" ] && known=("tests/fuzz/found/$target")
 export FUZZ_TARGET=$target
