@@ -152,9 +152,8 @@ private:
         std::array<std::uint32_t, 2> size{};
         if (length < sizeof size) damaged();
         if (!take(std::as_writable_bytes(std::span(size)))) return length;
-        if (std::uint64_t{size[0]} * size[1] > (length - sizeof size) / 4 ||
-            4 * std::uint64_t{size[0]} * size[1] + sizeof size != length)
-            damaged();
+        const std::uint32_t rest = length - sizeof size;
+        if (rest % 4 != 0 || std::uint64_t{size[0]} * size[1] != rest / 4) damaged();
         return sizeof size;
     }
     void check_pixels() {

@@ -1,8 +1,13 @@
 #include "core/readers/moment_of.hpp"
 
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
+
+#include "core/base/math/shutter.hpp"
+#include "core/readers/common/between_transforms.hpp"
+#include "core/scene/surfaces/moving_shape.hpp"
 
 namespace lightnet {
 namespace {
@@ -46,56 +51,42 @@ void take_cameras(const SceneData& there, Moment& moment) {
     for (const auto& one : there.cameras) moment.cameras.push_back(one.camera);
 }
 
-// Straight ways.
+// Straight ways, as MovingShape goes them.
 
-double between(double a, double b, double part) { return a + (b - a) * part; }
-float between(float a, float b, double part) { return float(between(double{a}, double{b}, part)); }
-Vec3 between(Vec3 a, Vec3 b, double part) {
-    return {between(a.x, b.x, part), between(a.y, b.y, part), between(a.z, b.z, part)};
+void go(std::vector<Vec3>& from, const std::vector<Vec3>& to, const StepPlace& place) {
+    for (std::size_t i = 0; i < from.size(); ++i) from[i] = place.between(from[i], to[i]);
 }
-Rgb between(Rgb a, Rgb b, double part) {
-    return {between(a.r, b.r, part), between(a.g, b.g, part), between(a.b, b.b, part)};
+ShapeGeometry on_way(Mesh from, const ShapeGeometry& to, const StepPlace& place) {
+    go(from.positions, std::get<Mesh>(to).positions, place);
+    go(from.normals, std::get<Mesh>(to).normals, place);
+    return from;
 }
-void go(std::vector<Vec3>& from, const std::vector<Vec3>& to, double part) {
-    for (std::size_t i = 0; i < from.size(); ++i) from[i] = between(from[i], to[i], part);
+ShapeGeometry on_way(const Sphere& from, const ShapeGeometry& to, const StepPlace& place) {
+    return MovingShape(from, std::span(&to, 1)).sphere(place.part);
 }
-void go(Matrix& from, const Matrix& to, double part) {
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j) from.m[i][j] = between(from.m[i][j], to.m[i][j], part);
+ShapeGeometry on_way(const Quadric& from, const ShapeGeometry& to, const StepPlace& place) {
+    return MovingShape(from, std::span(&to, 1)).quadric(place.part);
 }
-void go(Mesh& from, const Mesh& to, double part) {
-    go(from.positions, to.positions, part);
-    go(from.normals, to.normals, part);
-}
-void go(Sphere& from, const Sphere& to, double part) {
-    from.center = between(from.center, to.center, part);
-    from.radius = between(from.radius, to.radius, part);
-    if (part > 0.5) from.to_world = to.to_world;
-}
-void go(Quadric& from, const Quadric& to, double part) { go(from.to_world, to.to_world, part); }
-void go(Curves&, const Curves&, double) {}  // they stand still
-void go(ShapeGeometry& from, const ShapeGeometry& to, double part) {
-    std::visit([&](auto& one) { go(one, std::get<std::decay_t<decltype(one)>>(to), part); }, from);
-}
+ShapeGeometry on_way(const Curves& from, const ShapeGeometry&, const StepPlace&) { return from; }  // they stand still
+
 // Which way one points is as at the nearer end.
-template <IsLight L>
-void go(L& from, const L& to, double part) {
-    if constexpr (IsNear<L>) {
-        L there = part > 0.5 ? to : from;
-        there.position = between(from.position, to.position, part);
-        L last = to;
-        there.strength() = between(from.strength(), last.strength(), part);
-        from = std::move(there);
-    }
+void go(BareLight& from, const BareLight& to, const StepPlace& place) {
+    std::visit(
+        [&]<IsLight L>(L& one) {
+            if constexpr (IsNear<L>) {
+                L last = std::get<L>(to), there = place.part > 0.5f ? last : one;
+                there.position = place.between(one.position, last.position);
+                there.strength() = place.between(one.strength(), last.strength());
+                one = std::move(there);
+            }
+        },
+        from);
 }
-void go(BareLight& from, const BareLight& to, double part) {
-    std::visit([&](auto& one) { go(one, std::get<std::decay_t<decltype(one)>>(to), part); }, from);
-}
-void go(CameraData& from, const CameraData& to, double part) {
-    go(from.to_world, to.to_world, part);
-    from.fov = between(from.fov, to.fov, part);
-    from.lens_radius = between(from.lens_radius, to.lens_radius, part);
-    from.focus_distance = between(from.focus_distance, to.focus_distance, part);
+void go(CameraData& from, const CameraData& to, const StepPlace& place) {
+    from.to_world = between(from.to_world, to.to_world, double{place.part});
+    from.fov = place.between(from.fov, to.fov);
+    from.lens_radius = place.between(from.lens_radius, to.lens_radius);
+    from.focus_distance = place.between(from.focus_distance, to.focus_distance);
 }
 
 template <class State>
@@ -136,12 +127,17 @@ Moment moment_of(SceneData there, const SceneData& first) {
 }
 
 SceneData on_the_way(const SceneData& first, const Moment& there, double part) {
+    const StepPlace place(2, float(part));
     SceneData scene = first;
-    for (const auto& [i, shape] : there.shapes) go(scene.shapes[i].geometry, shape, part);
-    for (const auto& [i, to_world] : there.instances) go(scene.instances[i].to_world, to_world, part);
-    for (const auto& [i, light] : there.lights) go(scene.lights[i], light, part);
+    for (const auto& [i, shape] : there.shapes) {
+        auto& geometry = scene.shapes[i].geometry;
+        geometry = std::visit([&](auto& one) { return on_way(std::move(one), shape, place); }, geometry);
+    }
+    for (const auto& [i, to_world] : there.instances)
+        scene.instances[i].to_world = between(scene.instances[i].to_world, to_world, part);
+    for (const auto& [i, light] : there.lights) go(scene.lights[i], light, place);
     for (std::size_t i = 0; i < there.cameras.size(); ++i)
-        go(i == 0 ? scene.camera : scene.cameras[i - 1].camera, there.cameras[i], part);
+        go(i == 0 ? scene.camera : scene.cameras[i - 1].camera, there.cameras[i], place);
     return scene;
 }
 

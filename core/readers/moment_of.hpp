@@ -25,7 +25,8 @@ Moment moment_of(SceneData there, const SceneData& first);
 /// What of a shape moves.
 ShapeGeometry positions_of(ShapeGeometry shape);
 
-/// The scene on the straight way from `first` to another time, of which `part` is 1.
+/// The scene on the way from `first` to another time, of which `part` is 1; beyond it the way goes on. It is straight;
+/// instances and cameras turn, see between().
 SceneData on_the_way(const SceneData& first, const Moment& there, double part);
 
 /// Sets what the scene is like a frame later.

@@ -156,15 +156,12 @@ public:
         shutter_ = ShutterSpan{seconds_in(span), seconds_in(span.substr(span.find(' ') + 1))};
     }
 
-    SceneData read() {
-        SceneData scene = has_other_files() && shutter_ ? in_files_shutter() : in_shutter();
-        if (next_ && next_->time) note_motion(scene);
-        return scene;
-    }
+    SceneData read() { return has_other_files() ? of_files() : of_one_file(); }
 
 private:
     bool is_elsewhere(const std::optional<FrameBeside>& frame) const { return frame && !frame->file.empty(); }
     bool has_other_files() const { return is_elsewhere(previous_) || is_elsewhere(next_); }
+    bool asks_for_motion() const { return next_ && next_->time; }
     bool moves() const {
         const SceneFormat* format = format_of(path_, formats_);
         return format && format->moves;
@@ -178,12 +175,17 @@ private:
         return read_as(path, then);
     }
 
-    SceneData in_shutter() {
+    SceneData of_one_file() {
         if (!moves()) return read_as(path_, constants_);
+        SceneData scene = in_shutter();
+        if (asks_for_motion() && !scene.animations.empty())
+            set_next_frame(scene, read_at(path_, *next_->time + (shutter_ ? shutter_->open : 0)));
+        return scene;
+    }
+    SceneData in_shutter() {
         const std::function<SceneData(double)> at = [&](double seconds) { return read_at(path_, seconds); };
         if (shutter_) {
             const double now = taken_time(constants_).value_or(0);
-            open_ = shutter_->open;
             return read_in_shutter(at, {now + shutter_->open, now + shutter_->close}, path_);
         }
         SceneData scene = read_as(path_, constants_);
@@ -193,12 +195,22 @@ private:
         return read_in_shutter(at, *own, path_);
     }
 
-    SceneData in_files_shutter() {
+    /// In frames after its own.
+    ShutterSpan shutter_in_frames() const {
+        const double frame = (next_ ? next_ : previous_)->seconds_per_frame;
+        return shutter_ ? ShutterSpan{shutter_->open / frame, shutter_->close / frame} : ShutterSpan{};
+    }
+    SceneData of_files() {
         FramesAround frames{read_as(path_, constants_)};
         frames.previous = frame_beside(previous_, frames.now);
         frames.next = frame_beside(next_, frames.now);
-        const double frame = (next_ ? next_ : previous_)->seconds_per_frame;
-        return blurred_between(frames, {shutter_->open / frame, shutter_->close / frame}, path_);
+        const ShutterSpan shutter = shutter_in_frames();
+        SceneData scene = shutter_ ? blurred_between(frames, shutter, path_) : frames.now;
+        // as the next frame's shutter opens: on the straight way, also where that is beyond it
+        if (asks_for_motion() && frames.next)
+            set_next_frame(scene, on_the_way(frames.now, moment_of(std::move(*frames.next), frames.now),
+                                             std::max(0.0, 1 + shutter.open)));
+        return scene;
     }
 
     /// None: there is no such frame, as before the first and behind the last.
@@ -207,7 +219,7 @@ private:
         std::string why;
         try {
             if (!frame->time || !moves()) return read_as(frame->file, constants_);
-            return read_at(frame->file, *frame->time + open_);
+            return read_at(frame->file, *frame->time);
         } catch (const MissingHere&) {
             throw;
         } catch (const Error& problem) {
@@ -220,21 +232,12 @@ private:
         return std::nullopt;
     }
 
-    void note_motion(SceneData& scene) const {
-        if (is_elsewhere(next_)) {
-            if (auto there = frame_beside(next_, scene)) set_next_frame(scene, std::move(*there));
-        } else if (moves() && !scene.animations.empty()) {
-            set_next_frame(scene, read_at(path_, *next_->time + open_));
-        }
-    }
-
     Files& files_;
     const std::string& path_;
     std::span<const SceneFormat> formats_;
     std::optional<FrameBeside> previous_, next_;
     SceneConstants constants_;
     std::optional<ShutterSpan> shutter_;  // seconds after the time
-    double open_ = 0;                     // seconds after the time at which the scene is as it is at first
 };
 
 /// What each reader would have to look for: names that lead nowhere or in circles.

@@ -95,6 +95,20 @@ TEST(FilesOfFrames, SayWhereThingsAreInTheNext) {
     EXPECT_TRUE(scene.motion.empty()) << "no shutter is open";
 }
 
+// From where each is as this frame's shutter opens to where it is as that of the next does.
+TEST(FilesOfFrames, SayHowFarThingsMoveFromOpeningToOpening) {
+    const auto next_of = [](const std::string& span) {
+        auto files = frames(triangle("0"), triangle("4"), triangle("6"));
+        auto wanted = beside(shutter(span), next_constant, {frame_time, 2 * frame_time, "m.3.obj"});
+        if (span[0] == '-') wanted = beside(wanted, previous_constant, {frame_time, {}, "m.1.obj"});
+        const auto scene = read_scene(files, "m.2.obj", wanted);
+        return std::pair(corner(scene.shapes.at(0).geometry), corner(scene.next->motion.shapes.at(0).later.at(0)));
+    };
+    EXPECT_EQ(next_of("0 0.25"), std::pair(4.f, 6.f));
+    EXPECT_EQ(next_of("-0.25 0.25"), std::pair(2.f, 5.f)) << "half-way to both";
+    EXPECT_EQ(next_of("0.25 0.5"), std::pair(5.f, 7.f)) << "beyond the next the way goes on";
+}
+
 TEST(FilesOfFrames, MayBeOneFileThatMoves) {
     const auto scene = [](const SceneConstants& constants) {
         MemoryFiles files;

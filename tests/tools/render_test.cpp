@@ -94,6 +94,7 @@ TEST(Render, MovesTheCameraOfAGraphBetweenItsFrames) {
     EXPECT_FLOAT_EQ(overrides.camera_later[3].from->x, 0);
     EXPECT_FLOAT_EQ(overrides.camera_later[7].from->x, 1);
     EXPECT_FLOAT_EQ(*overrides.camera_later[7].fov, 41);
+    EXPECT_FLOAT_EQ(overrides.next_camera->from->x, 3) << "as the next frame's does";
 }
 
 // What hosts read by the graph is what was read here for the picture's size.

@@ -12,7 +12,7 @@
 namespace lightnet {
 namespace {
 
-constexpr const char* group = "FaultInjection for local workers, to see what a run does about them";
+constexpr const char* group = "Faults of local workers, to see what a run does about them";
 constexpr std::string_view workers = "worker";  // worker1, worker2, …
 constexpr double most_times = 1000;
 

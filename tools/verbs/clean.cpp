@@ -116,23 +116,24 @@ int clean_one(const CleanOptions& options, const Launcher& launcher) {
 int clean_frames(const CleanOptions& options, const Launcher& launcher) {
     if (!options.output.empty() && !has_frame_place(options.output))
         throw UserError({options.output, 0}, "has no place for the numbers of frames: name it like quiet.####.exr");
-    const auto wanted = frame_files(options.picture, options.frames);
-    std::map<int, std::string> files;
+    std::map<int, std::string> files, outputs;
     for (const auto& frame : frame_files(options.picture)) files.emplace(frame.number, frame.file);
-    Cleaning cleaning(options, launcher);
-    std::map<int, Picture> clean;
-    for (const auto& [number, file] : wanted) {
-        const auto output =
+    for (const auto& [number, file] : frame_files(options.picture, options.frames))
+        outputs[number] =
             place_of(file, options.output.empty() ? clean_beside(file) : with_frame(options.output, number));
+    Cleaning cleaning(options, launcher);
+    std::map<int, Picture> cleaned;
+    for (const auto& [number, output] : outputs) {
         const PictureLock lock(output);
-        clean.erase(clean.begin(), clean.lower_bound(number - options.across));
-        for (int other = number - options.across; other <= number + options.across; ++other)
-            if (const auto there = files.find(other); there != files.end() && !clean.contains(other)) {
-                const Picture& picture = clean.emplace(other, cleaning.picture(there->second)).first->second;
-                if (const auto fault = fault_across(picture); options.across > 0 && !fault.empty())
-                    throw UserError({there->second, 0}, fault);
-            }
-        cleaning.write(options.across > 0 ? joined_across(clean, number) : clean.at(number), output);
+        cleaned.erase(cleaned.begin(), cleaned.lower_bound(number - options.across));
+        for (int other = number - options.across; other <= number + options.across; ++other) {
+            const auto there = files.find(other);
+            if (there == files.end() || cleaned.contains(other)) continue;
+            const Picture& picture = cleaned.emplace(other, cleaning.picture(there->second)).first->second;
+            if (const auto fault = fault_across(picture); options.across > 0 && !fault.empty())
+                throw UserError({there->second, 0}, fault);
+        }
+        cleaning.write(options.across > 0 ? joined_across(cleaned, number) : cleaned.at(number), output);
     }
     return exit_code::done;
 }

@@ -1,4 +1,4 @@
-// FaultInjection with keys, in words for who can mend them.
+// Trouble with keys, in words for who can mend it.
 #pragma once
 
 #include <optional>

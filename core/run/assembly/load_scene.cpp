@@ -81,7 +81,8 @@ CameraOverride between(const CameraOverride& now, const CameraOverride& then, fl
             between(now.lens, then.lens, part), between(now.focus, then.focus, part)};
 }
 
-/// The graph's camera as the shutter opens and at later steps, on straight ways between the frames.
+/// The graph's camera as the shutter opens, at later steps, and as the next frame's shutter opens, on straight ways
+/// between the frames.
 void move_camera(const Values& params, SceneOverrides& overrides) {
     const auto now = overrides.camera, next = camera_called(params, "next_camera"),
                previous = camera_called(params, "previous_camera");
@@ -93,6 +94,7 @@ void move_camera(const Values& params, SceneOverrides& overrides) {
         return there ? between(*now, *there, std::fabs(frame)) : *now;
     };
     overrides.camera = at(frames(0));
+    overrides.next_camera = between(*now, next ? *next : *now, 1 + frames(0));
     for (int step = 1; step <= steps_of_camera && frames(1) > frames(0); ++step)
         overrides.camera_later.push_back(at(frames(0) + (frames(1) - frames(0)) * float(step) / steps_of_camera));
 }
