@@ -168,6 +168,48 @@ TEST_F(FramesRun, IsSharedByTwoLaunchersThatGoOnWithOneSequence) {
         EXPECT_TRUE(std::filesystem::exists(folder / ("shot.000" + std::to_string(frame) + ".exr"))) << frame;
 }
 
+// Its files are written while the next one is rendered, which ends as by a signal.
+TEST_F(FramesRun, EndsWithAFrameThatCannotBeWritten) {
+    auto all = words(graph_file("film.lua"), "1-9", "shot.####.exr", {"--size", "120x120", "--wait", "1"});
+    all.insert(all.begin(), {"/bin/bash", "-c", "ulimit -f 40; export TMPDIR=/dev/null HOME=; exec \"$@\"", "bash"});
+    Process process(all);
+    const auto said = said_by(process);
+    EXPECT_EQ(said.code, 1) << said.text;
+    EXPECT_THAT(said.text, HasSubstr("the picture can't be written, nor anywhere else: "));
+    EXPECT_THAT(said.text, Not(HasSubstr("frame 3")));
+    const auto sequence = report("shot.run.json");
+    EXPECT_EQ(sequence["outcome"], "failed");
+    EXPECT_EQ(sequence["frames"][0]["outcome"], "failed");
+    EXPECT_EQ(sequence["frames"][2]["outcome"], "waiting");
+    EXPECT_FALSE(std::filesystem::exists(folder / "shot.0001.exr"));
+}
+
+TEST_F(FramesRun, WritesWhatIsRenderedWhenItIsToldToEnd) {
+    const std::vector<std::string> more{"--threads", "1", "--samples", "64", "--resume"};
+    Process process(words(graph_file("film.lua"), "1-40", "shot.####.exr", more));
+    ASSERT_TRUE(process.wait_for("frame 2: ")) << process.output();
+    process.signal(SIGTERM);
+    const auto said = said_by(process);
+    EXPECT_EQ(said.code, 130) << said.text;
+    EXPECT_THAT(said.text, HasSubstr("--resume goes on with them"));
+    const auto sequence = report("shot.run.json");
+    EXPECT_EQ(sequence["outcome"], "cancelled");
+    std::size_t done = 0;
+    for (const auto& frame : sequence["frames"]) {
+        if (frame["outcome"] != "done") continue;
+        ++done;
+        EXPECT_EQ(report(std::filesystem::path(std::string(frame["report"])).filename().string())["outcome"], "done");
+    }
+    EXPECT_GE(done, 2);
+    for (const auto& entry : std::filesystem::directory_iterator(folder / ""))
+        EXPECT_THAT(entry.path().string(), Not(HasSubstr(".lock")));
+    const auto rest = run(graph_file("film.lua"), "1-5", "shot.####.exr", more);
+    ASSERT_EQ(rest.code, 0) << rest.text;
+    ASSERT_EQ(run(graph_file("film.lua"), "1-5x4", "alone.####.exr", more).code, 0);
+    EXPECT_TRUE(picture("shot.0001.exr") == picture("alone.0001.exr"));
+    EXPECT_TRUE(picture("shot.0005.exr") == picture("alone.0005.exr"));
+}
+
 TEST_F(FramesRun, SaysWhatIsWrongBeforeItBegins) {
     const auto one = film("1-3", "shot.exr");
     EXPECT_EQ(one.code, 2);

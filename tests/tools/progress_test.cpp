@@ -70,6 +70,23 @@ TEST(Progress, IsOfAllFramesOfASequence) {
     EXPECT_EQ(line["seconds_left"], 25);
 }
 
+// Two frames of a sequence: the files of one are written while the next is rendered.
+TEST(Progress, LeavesTheBarToTheRunThatGoesOnBesideIt) {
+    std::ostringstream terminal;
+    Progress progress(10, {ProgressMode::automatic, true, false}, terminal, start);
+    progress.phase("render", start);
+    progress.update(10, start + 500ms);
+    progress.stand_aside();
+    EXPECT_TRUE(terminal.str().ends_with("\r\x1b[K"));
+    terminal.str("");
+    progress.phase("write", start + 600ms);
+    progress.finish(start + 700ms);
+    EXPECT_EQ(terminal.str(), "") << "the line is another's";
+    progress.insist("the disk is full");
+    EXPECT_EQ(terminal.str(), "\r\x1b[Kthe disk is full\n") << "as the bar of the other run stands there";
+    EXPECT_EQ(room_for_line(ProgressMode::automatic, false), "");
+}
+
 TEST(Progress, WritesNoEscapesOffATerminal) {
     std::ostringstream file;
     Progress progress(100, {ProgressMode::automatic, false, false}, file, start);

@@ -1,6 +1,7 @@
 // Things that the runs of a sequence leave for each other: whatever the next frame does not change.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -48,6 +49,9 @@ public:
     WatchServer* server = nullptr;
     /// What became of the last run: its picture was there already.
     bool was_there = false;
+    /// Has the files of a run written, by another thread, while the next run goes on; what it is given returns an exit
+    /// code or throws. None: files are written before the run returns.
+    std::function<void(std::function<int()> write)> write_beside = {};
 
 private:
     void drop();

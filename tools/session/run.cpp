@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <optional>
 #include <utility>
@@ -11,7 +13,6 @@
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
 #include "core/network/graph/graph_film.hpp"
-#include "core/readers/read_scene.hpp"
 #include "core/readers/statistics.hpp"
 #include "core/run/assembly/load_scene.hpp"
 #include "core/scene/camera_in.hpp"
@@ -25,8 +26,8 @@
 #include "tools/session/kept_files.hpp"
 #include "tools/session/rendering.hpp"
 #include "tools/session/run_recorder.hpp"
+#include "tools/session/run_scene.hpp"
 #include "tools/session/run_trace.hpp"
-#include "tools/session/sequence_report.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/signals.hpp"
 
@@ -46,9 +47,6 @@ std::string words_of_lighting(const RunRequest& request) {
     return "lighting by " + name + ", by trials: " + trials + "; --lighting " + name + " gives the same picture";
 }
 
-// A scene as those see it who write of it.
-const SceneData& data_of(const LoadedScene& scene) { return scene.built ? scene.built->data() : scene.data; }
-
 /// `one_of_several`: they have one page.
 WatchedRun watched_run(const RunRequest& request, const Registry& registry, const FilmFormat& format,
                        bool one_of_several) {
@@ -57,7 +55,36 @@ WatchedRun watched_run(const RunRequest& request, const Registry& registry, cons
     return watched;
 }
 
-// One run of a checked graph, from its scene to its files.
+// Nothing of others is replaced.
+void check_files(const RunRequest& request, const FilmFormat& format) {
+    check_output(request.output);
+    if (format.halves()) check_picture(clean_beside(request.output));
+    if (!request.trace.empty())
+        if (const auto why = why_not_replaced(request.trace, trace_beginning); !why.empty())
+            throw UserError({request.trace, 0}, why);
+    if (!request.arrays.empty()) check_arrays(request.arrays);
+    if (!request.arrays.empty() && format.halves()) check_arrays(clean_beside(request.arrays));
+    if (!request.report.empty()) check_report(request.report);
+}
+
+// What is there becomes the picture, whatever it is; its checkpoint first, as that is what costs most to lose. In
+// words.
+std::string write_what_is_there(RunRecorder& book, const std::string& output,
+                                std::optional<std::chrono::duration<double>> most, const std::string& outcome) {
+    const bool kept = book.save_checkpoint(most);
+    const std::string goes_on = kept ? "; --resume goes on from here" : "";
+    const auto there = book.end_early();
+    std::string written = there.empty() ? "no picture was written" : there + ", in " + output;
+    try {
+        if (!there.empty()) book.write_picture(output);
+    } catch (const std::exception& error) {
+        written = std::string("no picture was written: ") + error.what();
+    }
+    book.write_report(output, outcome);
+    return written + goes_on;
+}
+
+// One run of a checked graph, from its scene to its files. One thread's at a time: another may write the files.
 class Run {
 public:
     Run(const RunRequest& request, const Registry& registry, Handover* handover, const Signals& signals)
@@ -67,21 +94,23 @@ public:
           signals_(signals),
           format_(film_format(request, registry)),
           book_(format_, request.progress, request.tuning.tile, first_page(request, registry, format_),
-                series_of(request)) {}
+                series_of(request)),
+          scene_(request, registry, format_, handover) {}
 
-    int perform();
+    /// None: all samples are there, and the files are still to be written.
+    std::optional<int> render();
+    /// From now on another thread has the run.
+    void stand_aside() { book_.stand_aside(); }
+    int write();
 
 private:
-    LoadedScene load();
-    std::optional<LoadedScene> load_again();
-    void warn_of(const SceneData& scene);
-    bool was_there(LoadedScene& scene);
-    int render();
+    std::optional<int> render_film();
+    int write_files();
     int cancelled();
-    std::string write_what_is_there(std::optional<std::chrono::duration<double>> most, const std::string& outcome);
     bool end_in_time();
     void open_to_watchers();
-    int perform_watched();
+    std::optional<int> watched(const std::function<std::optional<int>()>& work);
+    std::optional<int> reported(const std::function<std::optional<int>()>& work);
     bool show_outcome(const std::string& outcome);
     void take_up_checkpoint(const LoadedScene& scene);
     void report_failure();
@@ -94,12 +123,12 @@ private:
     RunRecorder book_;
     std::optional<LiveExplainer> explainer_;
     std::optional<Watcher> watcher_;
-    Job job_;
-    std::shared_ptr<ReadScene> read_;  // whose data is taken away
+    RunScene scene_;
+    std::optional<PictureLock> lock_;  // the last to go
 };
 
 void Run::take_up_checkpoint(const LoadedScene& scene) {
-    auto recipe = picture_recipe(job_, registry_, format_, request_.tuning.tile);
+    auto recipe = picture_recipe(scene_.job(), registry_, format_, request_.tuning.tile);
     const CameraData camera =
         scene.built ? scene.built->seen_from() : camera_in(scene.data, format_.width, format_.height);
     if (watcher_ && request_.shown)
@@ -112,59 +141,11 @@ void Run::take_up_checkpoint(const LoadedScene& scene) {
     if (request_.resume) book_.take_up_checkpoint();
 }
 
-LoadedScene Run::load() {
-    book_.phase("load");
-    if (auto again = load_again()) return *std::move(again);
-    read_ = request_.read;
-    if (!read_) {
-        read_ = std::make_shared<ReadScene>();
-        read_->scene = read_scene(read_->files, request_.scene, scene_constants(request_.graph, registry_));
-    }
-    LoadedScene scene = override_scene(request_.graph, registry_, read_->files, std::move(read_->scene));
-    warn_of(scene.data);
-    job_ = make_job(request_, registry_, format_, read_->files);
-    if (handover_) handover_->hold(job_, registry_, read_);
-    return scene;
-}
-
-// The scene of the frame before, where this one has the same.
-std::optional<LoadedScene> Run::load_again() {
-    if (!handover_ || !handover_->read()) return std::nullopt;
-    read_ = handover_->read();
-    job_ = make_job(request_, registry_, format_, read_->files);
-    return handover_->take(job_, registry_);
-}
-
-void Run::warn_of(const SceneData& scene) {
-    for (const auto& warning : scene.warnings) {
-        const auto text = to_string(warning);
-        if (handover_ && !handover_->is_new(text)) continue;
-        if (is_of_files_outside(warning) && request_.mode == Mode::network)
-            book_.alert(text);
-        else
-            book_.warn(text);
-    }
-}
-
-// Of a frame that is to be gone on with: another run, or an earlier one, has done all of it.
-bool Run::was_there(LoadedScene& scene) {
-    if (!request_.frame) return false;
-    const auto recipe = recipe_of_frame(job_);
-    book_.set("recipe", recipe);
-    book_.set("frame", std::to_string(request_.frame->number));
-    if (!request_.resume || !is_there(request_.output, recipe)) return false;
-    if (handover_) handover_->was_there = true;
-    if (handover_ && scene.built)
-        handover_->hold(scene.built);
-    else if (handover_)
-        handover_->hold(std::move(scene.data));
-    return true;
-}
-
-int Run::render() {
+std::optional<int> Run::render_film() {
     if (const auto words = words_of_lighting(request_); !words.empty()) book_.say(words);
-    LoadedScene scene = load();
-    if (was_there(scene)) return exit_code::done;
+    book_.phase("load");
+    LoadedScene scene = scene_.load(book_);
+    if (scene_.was_there(scene, book_)) return exit_code::done;
     const KeptFiles to_keep(request_.graph, registry_, data_of(scene));
     book_.expose(scene.built ? scene.built->film().scale : scene.data.film.scale);
     book_.limit_time(request_.time_limit);
@@ -185,36 +166,24 @@ int Run::render() {
     if (book_.complete())
         book_.say(request_.output + " is finished but for its file");
     else
-        Rendering({request_, registry_, job_, format_, to_keep, handover_}, book_, signals_)
-            .perform(std::move(scene), read_->files);
+        Rendering({request_, registry_, scene_.job(), format_, to_keep, handover_}, book_, signals_)
+            .perform(std::move(scene), scene_.files());
     if (signals_.any) return cancelled();
     if (!book_.complete() && !end_in_time()) return exit_code::failed;
+    return std::nullopt;
+}
+
+int Run::write_files() {
     book_.phase("write");
-    book_.name_bad_light(job_.graph);
+    book_.name_bad_light(scene_.job().graph);
     const int code = finish_run(book_, request_, scene_overrides(request_.graph, registry_).exposure, signals_.any);
     if (code == exit_code::done) book_.tell_shown(true);
     return code;
 }
 
-// What is there becomes the picture, whatever it is; its checkpoint first, as that is what costs most to lose. In
-// words.
-std::string Run::write_what_is_there(std::optional<std::chrono::duration<double>> most, const std::string& outcome) {
-    const bool kept = book_.save_checkpoint(most);
-    const std::string goes_on = kept ? "; --resume goes on from here" : "";
-    const auto there = book_.end_early();
-    std::string written = there.empty() ? "no picture was written" : there + ", in " + request_.output;
-    try {
-        if (!there.empty()) book_.write_picture(request_.output);
-    } catch (const std::exception& error) {
-        written = std::string("no picture was written: ") + error.what();
-    }
-    book_.write_report(request_.output, outcome);
-    return written + goes_on;
-}
-
 int Run::cancelled() {
     if (signals_.superseded) return book_.end_checkpoint(false), exit_code::interrupted;
-    const auto there = write_what_is_there(time_to_end(signals_), "cancelled");
+    const auto there = write_what_is_there(book_, request_.output, time_to_end(signals_), "cancelled");
     std::cerr << "cancelled: " << there << '\n';
     return exit_code::interrupted;
 }
@@ -222,7 +191,7 @@ int Run::cancelled() {
 // False: it came too soon for a picture that is one.
 bool Run::end_in_time() {
     if (!book_.covered()) {
-        const auto there = write_what_is_there({}, "preview");
+        const auto there = write_what_is_there(book_, request_.output, {}, "preview");
         std::cerr << "lightnet: the time was over before every pixel had a sample: " << there << '\n';
         return false;
     }
@@ -243,23 +212,26 @@ void Run::open_to_watchers() {
     if (request_.watch && !server) std::cerr << "watch it at " << watcher_->url() << std::endl;
 }
 
-int Run::perform() {
-    check_output(request_.output);
-    if (format_.halves()) check_picture(clean_beside(request_.output));
-    if (!request_.trace.empty())
-        if (const auto why = why_not_replaced(request_.trace, trace_beginning); !why.empty())
-            throw UserError({request_.trace, 0}, why);
-    if (!request_.arrays.empty()) check_arrays(request_.arrays);
-    if (!request_.arrays.empty() && format_.halves()) check_arrays(clean_beside(request_.arrays));
-    if (!request_.report.empty()) check_report(request_.report);
-    const PictureLock lock(request_.output);
+std::optional<int> Run::render() {
+    check_files(request_, format_);
+    lock_.emplace(request_.output);
     open_to_watchers();
+    return watched([this] { return render_film(); });
+}
+
+int Run::write() {
+    return watched([this] { return write_files(); }).value();
+}
+
+// Those who watch are shown how it ends, if it does.
+std::optional<int> Run::watched(const std::function<std::optional<int>()>& work) {
     try {
-        const int code = perform_watched();
-        const bool told = show_outcome(code == exit_code::done          ? "done"
-                                       : code == exit_code::interrupted ? "cancelled"
-                                                                        : "failed");
-        return told || code != exit_code::done ? code : exit_code::failed;
+        const auto code = reported(work);
+        if (!code) return code;
+        const bool told = show_outcome(*code == exit_code::done          ? "done"
+                                       : *code == exit_code::interrupted ? "cancelled"
+                                                                         : "failed");
+        return told || *code != exit_code::done ? *code : exit_code::failed;
     } catch (...) {
         show_outcome("failed");
         throw;
@@ -287,9 +259,9 @@ bool Run::show_outcome(const std::string& outcome) {
     }
 }
 
-int Run::perform_watched() {
+std::optional<int> Run::reported(const std::function<std::optional<int>()>& work) {
     try {
-        return render();
+        return work();
     } catch (const UserError&) {
         throw;
     } catch (const NoWorker& error) {
@@ -312,15 +284,34 @@ void Run::report_failure() {
     }
 }
 
-}  // namespace
-
-int run(const RunRequest& request, const Registry& registry, Handover* handover, const Signals& signals) try {
-    return Run(request, registry, handover, signals).perform();
-} catch (const std::bad_alloc&) {  // whose own words are none
+// Memory has no words of its own when it is short.
+template <class Work>
+auto short_of_memory_in_words(const RunRequest& request, const Registry& registry, const Work& work) try {
+    return work();
+} catch (const std::bad_alloc&) {
     const auto film = film_of(request.graph, registry);
     throw Error(
         fmt::format("there is not enough memory for {}x{} pixels of '{}'; a smaller --size or --crop takes less",
                     film.width, film.height, request.scene));
+}
+
+}  // namespace
+
+int run(const RunRequest& request, const Registry& registry, Handover* handover, const Signals& signals) {
+    std::shared_ptr<Run> run;
+    const auto code = short_of_memory_in_words(request, registry, [&] {
+        run = std::make_shared<Run>(request, registry, handover, signals);
+        return run->render();
+    });
+    if (code) return *code;
+    const bool beside = handover && handover->write_beside;
+    if (beside) run->stand_aside();
+    auto write = [run = std::move(run), &request, &registry] {
+        return short_of_memory_in_words(request, registry, [&] { return run->write(); });
+    };
+    if (!beside) return write();
+    handover->write_beside(std::move(write));
+    return exit_code::done;
 }
 
 }  // namespace lightnet

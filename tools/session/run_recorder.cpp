@@ -77,6 +77,11 @@ void RunRecorder::phase(const std::string& name) {
     if (watcher_) watcher_->phase(name);
 }
 
+void RunRecorder::stand_aside() {
+    end_phase(Clock::now());
+    progress_.stand_aside();
+}
+
 void RunRecorder::say(const LogEntry& entry) {
     Progress::Marks marks{{"time", log_time(std::chrono::system_clock::now())},
                           {"level", log_level(entry.level)},

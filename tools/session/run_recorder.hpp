@@ -94,8 +94,8 @@ public:
     void tell_shown(bool finished);
     /// Writes what is there now. "": it is written; else why not.
     std::string preview_now(const std::string& exr);
-    /// A preview was written, and no picture since.
-    bool previewed() const { return last_.is_preview; }
+    /// The phase ends, and all that follows is of another thread, while another run goes on beside this one.
+    void stand_aside();
     /// While something takes long (a large file, a picture to be cleaned), calls `attend` all the time: hosts that hear
     /// nothing for seconds take the run for gone. Null: there are none. It must not throw.
     void attend_by(std::function<void()> attend) { attend_ = std::move(attend); }

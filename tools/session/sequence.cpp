@@ -1,9 +1,8 @@
 #include "tools/session/sequence.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
-#include <cmath>
+#include <exception>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -11,16 +10,17 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/json_tree.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/read_scene.hpp"
 #include "core/run/assembly/load_scene.hpp"
 #include "tools/pictures/picture_lock.hpp"
+#include "tools/session/frame_writer.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/run.hpp"
-#include "tools/session/sequence_report.hpp"
+#include "tools/session/sequence_book.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/pace.hpp"
+#include "tools/support/signals.hpp"
 #include "tools/watch/watch_page.hpp"
 
 namespace lightnet {
@@ -71,19 +71,15 @@ private:
 class SequenceRun {
 public:
     SequenceRun(Sequence sequence, const Registry& registry)
-        : sequence_(std::move(sequence)), registry_(registry), motion_(registry) {
-        report_.graph = sequence_.frames.front().graph.file;
-        for (const auto& frame : sequence_.frames) report_.frames.push_back({frame.frame->number, frame.output});
-    }
+        : sequence_(std::move(sequence)), registry_(registry), motion_(registry), book_(sequence_) {}
 
     int perform() {
         open_to_watchers();
-        for (std::size_t i = 0; i < sequence_.frames.size(); ++i)
-            if (const int code = render(i); code != exit_code::done) return end(code);
-        for (std::size_t i = 0; i < sequence_.frames.size(); ++i)  // whose run may have ended without them
-            if (report_.frames[i].outcome == "elsewhere")
-                if (const int code = render_after_others(i); code != exit_code::done) return end(code);
-        return end(exit_code::done);
+        const int code = render_all();
+        const int of_files = writer_.code();
+        const int first = of_files != exit_code::done ? of_files : code;
+        book_.close(first);
+        return first;
     }
 
 private:
@@ -95,101 +91,86 @@ private:
         handover_.server = &*server_;
         std::cerr << "watch it at " << server_->url() << std::endl;
     }
-    std::vector<std::pair<int, std::string>> outcomes() const {
-        std::vector<std::pair<int, std::string>> all;
-        for (const auto& frame : report_.frames)
-            all.emplace_back(frame.frame, frame.outcome == "waiting" ? "" : frame.outcome);
-        return all;
+
+    int render_all() {
+        const auto frames = sequence_.frames.size();
+        for (std::size_t i = 0; i < frames && !writer_.failed(); ++i)
+            if (const int code = render(i, i + 1 < frames); code != exit_code::done) return code;
+        for (std::size_t i = 0; i < frames && !writer_.failed(); ++i) {  // whose run may have ended without them
+            if (!book_.is_elsewhere(i)) continue;
+            sequence_.frames[i].resume = true;
+            if (const int code = render(i, false); code != exit_code::done) return code;
+        }
+        return exit_code::done;
     }
 
-    int render(std::size_t i) {
+    int render(std::size_t i, bool goes_on) {
         RunRequest& request = sequence_.frames[i];
-        FrameReport& report = report_.frames[i];
-        request.frame->index = report_.count("done");
-        request.frame->count = report_.frames.size() - report_.count("there") - report_.count("elsewhere");
-        request.frame->begun = begun_;
-        if (server_) request.frame->all = outcomes();
+        request.frame = book_.place_of(i, server_.has_value());
         const auto begun = Clock::now();
-        int code = exit_code::done;
+        bool left = false;  // to the writer
+        handover_.write_beside = nullptr;
+        if (goes_on)
+            handover_.write_beside = [&](std::function<int()> write) {
+                left = true;
+                write_beside(i, begun, std::move(write));
+            };
+        std::optional<int> code;
         try {
             motion_.settle(request);
             handover_.was_there = false;
             code = run(request, registry_, &handover_);
-            report.outcome = code == exit_code::interrupted ? "cancelled"
-                             : code != exit_code::done      ? "failed"
-                             : handover_.was_there          ? "there"
-                                                            : "done";
         } catch (const PictureTaken&) {
-            report.outcome = "elsewhere";
         } catch (...) {
-            report.outcome = "failed";
-            write("failed");
+            give_up(i);
             throw;
         }
-        report.seconds = report.outcome == "there" ? 0 : seconds_since(begun);
+        if (!left) end(i, code, begun);
         request.read.reset();
-        say(report);
-        write("going");
-        return code;
+        return code.value_or(exit_code::done);
     }
 
-    // If nobody is at it any more, and it isn't there.
-    int render_after_others(std::size_t i) {
-        sequence_.frames[i].resume = true;
-        return render(i);
+    // None: another run is at it. The frames before have the first word.
+    void end(std::size_t i, std::optional<int> code, Clock::time_point begun) {
+        writer_.wait();
+        const std::string outcome = code && handover_.was_there ? "there" : outcome_of(code);
+        book_.ended(i, outcome, seconds_since(begun));
     }
 
-    // A line of each frame.
-    void say(const FrameReport& frame) const {
-        const auto progress = sequence_.frames.front().progress;
-        if (progress == ProgressMode::none) return;
-        const auto finished = report_.count("done") + report_.count("there");
-        if (progress == ProgressMode::json) {
-            const JsonTree line{{"event", "frame"},
-                                {"frame", frame.frame},
-                                {"outcome", frame.outcome},
-                                {"file", frame.file},
-                                {"seconds", frame.seconds},
-                                {"frames_done", finished},
-                                {"frames", report_.frames.size()}};
-            std::cerr << to_text(line) << std::endl;
-            return;
-        }
-        std::cerr << fmt::format("frame {}: {}, {} of {}\n", frame.frame, in_words(frame), finished,
-                                 report_.frames.size())
-                  << std::flush;
-    }
-    static std::string in_words(const FrameReport& frame) {
-        if (frame.outcome == "there") return frame.file + " is there";
-        if (frame.outcome == "elsewhere") return "another run is at it";
-        return fmt::format("{} is {}, {:.1f} s", frame.file, frame.outcome, frame.seconds);
+    static std::string outcome_of(std::optional<int> code) {
+        return !code                             ? "elsewhere"
+               : *code == exit_code::interrupted ? "cancelled"
+               : *code != exit_code::done        ? "failed"
+                                                 : "done";
     }
 
-    int end(int code) {
-        write(code == exit_code::done ? "done" : code == exit_code::interrupted ? "cancelled" : "failed");
-        const auto& request = sequence_.frames.front();
-        if (request.progress == ProgressMode::none || request.progress == ProgressMode::json) return code;
-        std::string text = fmt::format("{} frames in {:.1f} s: {} rendered", report_.frames.size(),
-                                       seconds_since(begun_), report_.count("done"));
-        if (const auto there = report_.count("there")) text += fmt::format(", {} were there", there);
-        if (const auto others = report_.count("elsewhere")) text += fmt::format(", {} are left to other runs", others);
-        if (const auto waiting = report_.count("waiting") + report_.count("cancelled"))
-            text += fmt::format(", {} are left: --resume goes on with them", waiting);
-        std::cerr << text << std::endl;
-        return code;
-    }
-
-    // A report that can't be written is no reason to lose frames, which have their own.
-    void write(const std::string& outcome) {
-        report_.outcome = outcome;
-        report_.seconds = seconds_since(begun_);
-        if (sequence_.report.empty()) return;
+    // Whoever tells of this error can tell of no other.
+    void give_up(std::size_t i) {
         try {
-            write_report(sequence_.report, report_);
-        } catch (const Error& error) {
-            if (!std::exchange(complained_, true))
-                std::cerr << "lightnet: there is no report of the sequence: " << error.what() << '\n';
+            writer_.code();
+        } catch (const std::exception& error) {
+            std::cerr << std::string("lightnet: ") + error.what() + '\n';
         }
+        book_.fail(i);
+    }
+
+    // A frame that can't be written ends the sequence, and the frame that is rendered meanwhile as a signal would: it
+    // can be gone on with.
+    void write_beside(std::size_t i, Clock::time_point begun, std::function<int()> write) {
+        writer_.wait();
+        book_.rendered(i);
+        writer_.begin([this, i, begun, write = std::move(write)]() mutable {
+            try {
+                const int code = std::exchange(write, nullptr)();
+                if (code != exit_code::done) ask_to_stop();
+                book_.ended(i, outcome_of(code), seconds_since(begun));
+                return code;
+            } catch (...) {
+                ask_to_stop();
+                book_.fail(i);
+                throw;
+            }
+        });
     }
 
     Sequence sequence_;
@@ -197,9 +178,8 @@ private:
     Motion motion_;
     std::optional<WatchServer> server_;  // of the page, if there is one
     Handover handover_;
-    SequenceReport report_;
-    Clock::time_point begun_ = Clock::now();
-    bool complained_ = false;
+    SequenceBook book_;
+    FrameWriter writer_;  // the first to go
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ using namespace std::chrono_literals;
 constexpr auto bar_interval = 100ms, json_interval = 250ms, plain_interval = 10000ms;
 constexpr auto plain_silence = 3s;  // a phase that takes no longer needs no lines
 constexpr auto worth_a_line = 1s;   // a phase
+constexpr std::string_view clear_line = "\r\x1b[K";
 constexpr std::size_t longest_bar = 30, shortest_bar = 5, longest_label = 48;
 
 double seconds(Progress::Time::duration time) { return std::chrono::duration<double>(time).count(); }
@@ -43,6 +44,11 @@ std::optional<ProgressMode> progress_mode(std::string_view text) {
     for (const auto& [name, mode] : modes)
         if (name == text) return mode;
     return {};
+}
+
+std::string_view room_for_line(ProgressMode mode, bool terminal) {
+    const bool bar = mode == ProgressMode::bar || (mode == ProgressMode::automatic && terminal);
+    return bar ? clear_line : "";
 }
 
 Progress::Style Progress::style_of_stderr(ProgressMode wanted) {
@@ -69,7 +75,7 @@ Progress::Progress(std::uint64_t total, Style style, std::ostream& out, Time now
     if (mode_ != ProgressMode::json) return;
     JsonTree line{{"event", "begin"}, {"format", "lightnet progress 1"}, {"total", total_}};
     if (const auto& series = style_.series) line["frame"] = series->frame;
-    out_ << to_text(line) << std::endl;
+    out_ << to_text(line) + '\n' << std::flush;
 }
 
 double Progress::fraction() const {
@@ -144,7 +150,7 @@ bool Progress::due(Time now) {
     const auto since = now - reported_;
     switch (mode_) {
         case ProgressMode::bar:
-            return since >= bar_interval || !bar_shown_;
+            return since >= bar_interval || bar_ == Bar::none;
         case ProgressMode::json:
             return since >= json_interval;
         case ProgressMode::plain:
@@ -190,12 +196,21 @@ std::string Progress::bar_text(std::size_t columns, Time now) const {
 
 // The last column stays free: some terminals go to the next line when it is filled.
 void Progress::draw_bar(Time now) {
-    out_ << "\r\x1b[K" << bar_text(static_cast<std::size_t>(std::max(style_.columns(), 2)), now) << std::flush;
-    bar_shown_ = true;
+    if (bar_ == Bar::of_another) return;
+    out_ << std::string(clear_line) + bar_text(static_cast<std::size_t>(std::max(style_.columns(), 2)), now)
+         << std::flush;
+    bar_ = Bar::shown;
 }
 
-void Progress::clear_bar() {
-    if (std::exchange(bar_shown_, false)) out_ << "\r\x1b[K";
+// What makes room for other lines.
+std::string_view Progress::without_bar() {
+    if (bar_ == Bar::of_another) return room_for_line(mode_, style_.terminal);
+    return std::exchange(bar_, Bar::none) == Bar::shown ? clear_line : "";
+}
+
+void Progress::stand_aside() {
+    out_ << without_bar() << std::flush;
+    bar_ = Bar::of_another;
 }
 
 void Progress::line_of_json(std::string_view event, Time now) {
@@ -205,7 +220,7 @@ void Progress::line_of_json(std::string_view event, Time now) {
     if (const auto left = seconds_left(now)) line["seconds_left"] = *left;
     if (const auto& series = style_.series)
         line["frame"] = series->frame, line["frames_done"] = series->index, line["frames"] = series->count;
-    out_ << to_text(line) << std::endl;
+    out_ << to_text(line) + '\n' << std::flush;
 }
 
 void Progress::say(std::string_view message, const Marks& marks) {
@@ -213,24 +228,23 @@ void Progress::say(std::string_view message, const Marks& marks) {
 }
 
 void Progress::insist(std::string_view message, const Marks& marks) {
-    clear_bar();
+    std::string text(message);
     if (mode_ == ProgressMode::json) {
         JsonTree line{{"event", "message"}, {"text", message}};
         for (const auto& [name, value] : marks) line[name] = value;
-        out_ << to_text(line) << std::endl;
-    } else {
-        out_ << message << std::endl;
+        text = to_text(line);
     }
+    out_ << fmt::format("{}{}\n", without_bar(), text) << std::flush;
 }
 
 void Progress::finish(Time now) {
     if (mode_ == ProgressMode::json) return line_of_json("finish", now);
-    if (mode_ == ProgressMode::bar && done_ < total_) {
+    if (mode_ == ProgressMode::bar && done_ < total_ && bar_ != Bar::of_another) {
         draw_bar(now);
         out_ << "\n";
-        bar_shown_ = false;
+        bar_ = Bar::none;
     }
-    clear_bar();
+    if (bar_ == Bar::shown) out_ << without_bar();
     phase({}, now);
 }
 

@@ -20,6 +20,9 @@ enum class ProgressMode { automatic, bar, plain, json, none };
 /// "auto", "bar", "plain", "json" or "none".
 std::optional<ProgressMode> progress_mode(std::string_view text);
 
+/// What clears the line of the bar, if there may be one, so that another can be written there.
+std::string_view room_for_line(ProgressMode mode, bool terminal);
+
 /// One bar for the whole run on a terminal, never longer than a line of it; elsewhere, from the third second on, a
 /// plain line every ten seconds or ten percent; or a JSON object per line. Time is an argument, so nothing here waits
 /// or looks at a clock. One thread.
@@ -63,13 +66,14 @@ public:
     /// The phase is at a step of which so much is done: for phases before the work. `name` says what it does. Of 0: not
     /// known.
     void step(std::string_view name, std::uint64_t done, std::uint64_t total, Time now);
-    /// Says something without tearing the bar apart. Mode none: says nothing.
-    void say(std::string_view message) { say(message, {}); }
-    /// In JSON, the line has these members besides, and their values.
+    /// Members that a line of JSON has besides, and their values.
     using Marks = std::vector<std::pair<std::string, std::string>>;
-    void say(std::string_view message, const Marks& marks);
+    /// Says something without tearing the bar apart. Mode none: says nothing.
+    void say(std::string_view message, const Marks& marks = {});
     /// Says it in every mode: for what is an error, though the run goes on.
     void insist(std::string_view message, const Marks& marks = {});
+    /// From now on the bar is that of another run, which goes on beside this one; lines are whole among those of both.
+    void stand_aside();
     /// The last line. A bar goes when the work is finished, and stays where it is when not.
     void finish(Time now);
 
@@ -91,7 +95,7 @@ private:
     std::string label() const;
     std::optional<double> seconds_of_work_left(Time now) const;
     std::optional<double> seconds_of_series_left(Time now) const;
-    void clear_bar();
+    std::string_view without_bar();
     void line_of_json(std::string_view event, Time now);
     double own_fraction() const;
     double fraction() const;
@@ -105,7 +109,7 @@ private:
     std::string phase_;
     std::optional<Step> step_;
     int tenths_ = 0;  // plain: the last tenth of the work that was said
-    bool bar_shown_ = false;
+    enum class Bar { none, shown, of_another } bar_ = Bar::none;
 };
 
 }  // namespace lightnet

@@ -223,10 +223,10 @@ WatchServer::WatchServer(Options options, WatchStage stage)
     : parts_(std::make_unique<Parts>(std::move(options), std::move(stage))) {}
 WatchServer::~WatchServer() = default;
 
-void WatchServer::show(WatchStage stage) {
+void WatchServer::show(WatchStage stage, const std::shared_ptr<WatchBoard>& in_place_of) {
     auto next = std::make_shared<const WatchStage>(std::move(stage));
     const std::lock_guard lock(parts_->site.stage_mutex);
-    parts_->site.shown = std::move(next);
+    if (!in_place_of || parts_->site.shown->board == in_place_of) parts_->site.shown = std::move(next);
 }
 
 void WatchServer::tell(const std::string& text) {

@@ -72,7 +72,8 @@ public:
     WatchServer& operator=(const WatchServer&) = delete;
 
     /// From now on pages see this; when it returns, nobody is called any more whom the last stage named. Any thread.
-    void show(WatchStage stage);
+    /// `in_place_of`: only if that is the board that they see now; null: in any case.
+    void show(WatchStage stage, const std::shared_ptr<WatchBoard>& in_place_of = nullptr);
     /// A text (JSON) for all who watch now. Any thread.
     void tell(const std::string& text);
 

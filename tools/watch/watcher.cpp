@@ -75,11 +75,11 @@ Watcher::Watcher(Options options, const WatchedRun& run)
     server_ = own_server_.get();
 }
 
-// The last thing that it has shown stays on a server of others.
+// The last thing that it has shown stays on a server of others, unless another run is shown there already.
 Watcher::~Watcher() {
     if (!server_ || own_server_) return;
     server_->show(
-        {noted_.hello, board_, [](const WatchCommand& command) { command.answer("the picture is finished"); }});
+        {noted_.hello, board_, [](const WatchCommand& command) { command.answer("the picture is finished"); }}, board_);
 }
 
 std::string Watcher::url() const { return server_ ? server_->url() : std::string(); }
