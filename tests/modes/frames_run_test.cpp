@@ -131,6 +131,29 @@ TEST_F(FramesRun, BlursFilesOfFramesAlikeInEveryMode) {
     EXPECT_THAT(picture("serial.0002.exr"), HasSubstr("motion.X"));
 }
 
+// Which is read ahead.
+TEST_F(FramesRun, EndsAtAFrameWhoseSceneCannotBeRead) {
+    const std::string triangle = "v 0 -1 0\nv 2 -1 0\nv 1 1 0\nf 1 2 3\n";
+    folder.write("mesh.0001.obj", triangle);
+    folder.write("mesh.0002.obj", triangle);
+    folder.write("mesh.0004.obj", triangle);
+    folder.write("mesh.0003.obj", "v 0 -1 0\nv 2 -1 0\nf 1 2 9\n");
+    const auto graph = folder.write(
+        "moving.lua",
+        "scene = Scene { 'mesh.####.obj', camera = { from = { 0, 0, 5 }, to = { 1, 0, 0 } }, environment = { 1, 1, 1 } "
+        "}\n"
+        "light = DirectLighting {}\nimage = RayTracer { light, scene = scene, samples = 4, film = { 40, 40 } }\n");
+    const auto said = run(graph, "1-4", "shot.####.exr");
+    EXPECT_EQ(said.code, 2) << said.text;
+    EXPECT_THAT(said.text, HasSubstr("mesh.0003.obj:3: "));
+    EXPECT_THAT(said.text, HasSubstr("shot.0002.exr is done"));
+    const auto sequence = report("shot.run.json");
+    EXPECT_EQ(sequence["outcome"], "failed");
+    EXPECT_EQ(sequence["frames"][1]["outcome"], "done");
+    EXPECT_EQ(sequence["frames"][2]["outcome"], "failed");
+    EXPECT_EQ(sequence["frames"][3]["outcome"], "waiting");
+}
+
 TEST_F(FramesRun, GoesOnWithTheFramesThatAreMissing) {
     ASSERT_EQ(film("1-2", "shot.####.exr").code, 0);
     const auto first = std::filesystem::last_write_time(folder / "shot.0001.exr");

@@ -32,7 +32,7 @@ std::optional<LoadedScene> Handover::take(const Job& job, const Registry& regist
     auto source = scene_source(job, registry);
     const bool same = source == *source_;
     LoadedScene scene;
-    if (!source.is_but_for_sight(*source_) || asks_for_all(job.graph, registry)) return drop(), std::nullopt;
+    if (!holds_scene_of(job, registry)) return drop(), std::nullopt;
     expect_sound(job, registry, built_ ? built_->data() : *data_);
     if (built_) {
         scene.built = same ? built_ : seen_by(job, registry, *built_);
@@ -46,6 +46,10 @@ std::optional<LoadedScene> Handover::take(const Job& job, const Registry& regist
     }
     source_ = std::move(source);
     return scene;
+}
+
+bool Handover::holds_scene_of(const Job& job, const Registry& registry) const {
+    return source_ && scene_source(job, registry).is_but_for_sight(*source_) && !asks_for_all(job.graph, registry);
 }
 
 void Handover::drop() {

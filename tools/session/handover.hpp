@@ -38,6 +38,9 @@ public:
     /// UserError with what is wrong with it.
     std::optional<LoadedScene> take(const Job& job, const Registry& registry);
 
+    /// Will take() find the scene of that job, as far as can be told without looking at it?
+    bool holds_scene_of(const Job& job, const Registry& registry) const;
+
     /// They have changed on the disk, so the next job reads them anew.
     void forget_files() { drop(); }
 
@@ -52,6 +55,8 @@ public:
     /// Has the files of a run written, by another thread, while the next run goes on; what it is given returns an exit
     /// code or throws. None: files are written before the run returns.
     std::function<void(std::function<int()> write)> write_beside = {};
+    /// Is told when the scene of a run is read, and all that is held of it; none: nobody wants to know.
+    std::function<void()> loaded = {};
 
 private:
     void drop();

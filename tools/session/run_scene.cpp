@@ -10,7 +10,13 @@
 namespace lightnet {
 
 LoadedScene RunScene::load(RunRecorder& book) {
-    if (auto again = load_again()) return *std::move(again);
+    auto again = load_again();
+    LoadedScene scene = again ? *std::move(again) : read(book);
+    if (handover_ && handover_->loaded) handover_->loaded();
+    return scene;
+}
+
+LoadedScene RunScene::read(RunRecorder& book) {
     read_ = request_.read;
     if (!read_) {
         read_ = std::make_shared<ReadScene>();

@@ -33,6 +33,7 @@ public:
     const DiskFiles& files() const { return read_->files; }
 
 private:
+    LoadedScene read(RunRecorder& book);
     std::optional<LoadedScene> load_again();
     void warn_of(const SceneData& scene, RunRecorder& book) const;
 

@@ -4,16 +4,12 @@
 #include <exception>
 #include <functional>
 #include <iostream>
-#include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/network/graph/graph_film.hpp"
-#include "core/readers/read_scene.hpp"
-#include "core/run/assembly/load_scene.hpp"
 #include "tools/pictures/picture_lock.hpp"
+#include "tools/session/frame_scenes.hpp"
 #include "tools/session/frame_writer.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/run.hpp"
@@ -28,50 +24,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Does a scene move? It does where its file holds animations.
-class Motion {
-public:
-    explicit Motion(const Registry& registry) : registry_(registry) {}
-
-    /// Takes times out of what is asked for where nothing hangs on them, so that all frames ask for the same.
-    void settle(RunRequest& request) {
-        Node& scene = request.graph.nodes[place_of(request.graph)];
-        if (!scene.params.contains("time") || moves(request, scene)) return;
-        scene.params.erase("time");
-        for (const char* frame : {"previous", "next"})
-            if (const auto beside = scene.params.find(frame); beside != scene.params.end())
-                if (!std::get<Table>(beside->second.data).named.contains("file")) scene.params.erase(beside);
-    }
-
-private:
-    std::size_t place_of(const Graph& graph) const {
-        const Node& scene = scene_of(graph, registry_);
-        return graph.find(scene.name).value();
-    }
-    bool moves(RunRequest& request, const Node& scene) {
-        const auto* format = scene_format_of(request.scene);
-        if (!format || !format->moves) return false;
-        auto constants = scene_constants(request.graph, scene);
-        for (const auto name : {time_constant, previous_constant, next_constant}) constants.erase(std::string(name));
-        const auto [known, fresh] = known_.try_emplace({request.scene, std::move(constants)}, false);
-        if (!fresh) return known->second;
-        if (!request.read) {  // it is at this time already
-            auto read = std::make_shared<ReadScene>();
-            read->scene = read_scene(read->files, request.scene, scene_constants(request.graph, scene));
-            request.read = std::move(read);
-        }
-        return known->second = !request.read->scene.animations.empty();
-    }
-
-    const Registry& registry_;
-    std::map<std::pair<std::string, SceneConstants>, bool> known_;
-};
-
 // DECISIONS: frames-alone-are-frames
 class SequenceRun {
 public:
     SequenceRun(Sequence sequence, const Registry& registry)
-        : sequence_(std::move(sequence)), registry_(registry), motion_(registry), book_(sequence_) {}
+        : sequence_(std::move(sequence)), registry_(registry), scenes_(registry, watch_signals()), book_(sequence_) {}
 
     int perform() {
         open_to_watchers();
@@ -115,9 +72,11 @@ private:
                 left = true;
                 write_beside(i, begun, std::move(write));
             };
+        handover_.loaded = nullptr;
+        if (goes_on) handover_.loaded = [this, i] { scenes_.read_ahead(sequence_.frames[i + 1], handover_); };
         std::optional<int> code;
         try {
-            motion_.settle(request);
+            scenes_.settle(request);
             handover_.was_there = false;
             code = run(request, registry_, &handover_);
         } catch (const PictureTaken&) {
@@ -175,7 +134,7 @@ private:
 
     Sequence sequence_;
     const Registry& registry_;
-    Motion motion_;
+    FrameScenes scenes_;
     std::optional<WatchServer> server_;  // of the page, if there is one
     Handover handover_;
     SequenceBook book_;
