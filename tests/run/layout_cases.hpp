@@ -99,25 +99,4 @@ inline bool covers(const LayoutCase& made, const HeldByHosts& holds) {
     });
 }
 
-// The least seconds of all layouts that fit, and one that takes them.
-inline double best_of_all(const LayoutCase& made, HeldByHosts* best = nullptr) {
-    const std::size_t nodes = made.costs.nodes.size(), sets = std::size_t{1} << nodes;
-    std::size_t layouts = 1;
-    for (std::size_t host = 0; host < made.hosts.size(); ++host) layouts *= sets;
-    double least = std::numeric_limits<double>::infinity();
-    HeldByHosts holds(made.hosts.size(), std::vector<bool>(nodes));
-    for (std::size_t layout = 0; layout < layouts; ++layout) {
-        bool fits = true;
-        for (std::size_t host = 0, rest = layout; host < made.hosts.size(); ++host, rest /= sets) {
-            for (std::size_t node = 0; node < nodes; ++node) holds[host][node] = rest % sets >> node & 1;
-            fits = fits && has_room(made.costs, made.hosts[host], holds[host]);
-        }
-        if (!fits || !covers(made, holds)) continue;
-        const double seconds = seconds_of(made, holds);
-        if (seconds < least && best) *best = holds;
-        least = std::min(least, seconds);
-    }
-    return least;
-}
-
 }  // namespace lightnet::test

@@ -40,6 +40,17 @@ TEST(Mover, LeavesAGoodLayoutAsItIs) {
     EXPECT_TRUE(world.moves().empty()) << world.moves().front().move.who.front();
 }
 
+TEST(Mover, GivesWorkToAHostThatHadNone) {
+    auto by = three_hosts();
+    by.holds[2] = {false, false, false};
+    MovingWorld world(by, steady);
+    const double before = world.rate();
+    world.run(10);
+    ASSERT_EQ(world.moves().size(), 1u);
+    EXPECT_TRUE(world.mover().by().holds[2][2]) << "the picture is rendered there as well";
+    EXPECT_GT(world.rate(), 1.1 * before);
+}
+
 TEST(Mover, RelievesAHostThatBecomesSlow) {
     MovingWorld world(three_hosts(), slow(0, 10, 1e9, 4));
     world.run(10);

@@ -174,11 +174,14 @@ Loaded laid_out(const RunningOptions& running, const Launcher& launcher, Loaded 
                                ? rehearsed(running, launcher, loaded)
                                : costs_for(loaded.graph, launcher.registry, running.layout.substr(by_report.size()));
     const auto layout = place_nodes(costs, facts, {});
-    loaded.hosts = hosts_of(layout.holds, costs, facts, std::move(loaded.hosts));
-    loaded.laid_out = std::make_shared<const LaidOut>(LaidOut{costs, facts, {}, layout.holds});
+    const auto said = hosts_of(layout.holds, costs, facts, loaded.hosts);
+    const LaidOut by{costs, facts, {}, layout.holds};
+    const bool may_move = Mover(by).may_move() && loaded.hosts.layouts.empty();
+    loaded.hosts = may_move ? with_empty_hosts(said, costs, std::move(loaded.hosts)) : said;
+    loaded.laid_out = std::make_shared<const LaidOut>(by);
     for (const auto& reason : layout.why)
         if (running.progress != ProgressMode::none) launcher.err << "layout: " << reason << '\n';
-    if (!running.layout_out.empty()) write_file(running.layout_out, hosts_file_text(loaded.hosts, layout.why));
+    if (!running.layout_out.empty()) write_file(running.layout_out, hosts_file_text(said, layout.why));
     return loaded;
 }
 

@@ -22,7 +22,8 @@ constexpr std::size_t few = 40;           // hosts times nodes, for which layout
 constexpr std::size_t most_steps = 3e7;   // of all estimates: some hundredths of a second
 constexpr std::size_t most_played = 120;  // layouts, when the best is made better still
 constexpr std::size_t kicks = 40;         // with which it looks beyond the best that steps lead to
-constexpr double clearly_quicker = 0.9;   // than everything everywhere
+constexpr double clearly_quicker = 0.95;  // than everything everywhere, when played ...
+constexpr double perhaps_quicker = 0.9;   // ... and where there is only an estimate
 
 /// Looks for the best layout, host by host.
 class Search {
@@ -178,8 +179,7 @@ private:
         if (plays) refine(best, least, seconds_of);
         if (everywhere && best.holds != *everywhere) {
             NodeLayout all{*everywhere, estimate_.seconds(*everywhere), {}};
-            const bool quicker = least < clearly_quicker * seconds_of(all);
-            if (!quicker || best.seconds >= clearly_quicker * all.seconds) best = std::move(all);
+            if (least >= (plays ? clearly_quicker : perhaps_quicker) * seconds_of(all)) best = std::move(all);
         }
         best.why = reasons(best.holds);
         return best;
@@ -282,6 +282,22 @@ Hosts hosts_of(const HeldByHosts& holds, const RunCosts& costs, const std::vecto
     }
     said.hosts = std::move(entries);
     return said;
+}
+
+Hosts with_empty_hosts(const Hosts& said, const RunCosts& costs, Hosts known) {
+    std::vector<HostEntry> entries;
+    for (auto& entry : known.hosts) {
+        const auto found = std::find_if(said.hosts.begin(), said.hosts.end(),
+                                        [&](const auto& other) { return other.host() == entry.host(); });
+        if (found != said.hosts.end()) {
+            entries.push_back(*found);
+        } else if (!entry.is_here()) {
+            entry.replicas = {{costs.nodes[costs.image].name, 0}};  // none at all would say: the whole network
+            entries.push_back(std::move(entry));
+        }
+    }
+    known.hosts = std::move(entries);
+    return known;
 }
 
 NodeLayout place_nodes(const RunCosts& costs, const std::vector<ForecastHost>& hosts, const LineCost& launcher) {

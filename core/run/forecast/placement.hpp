@@ -24,6 +24,10 @@ Plan plan_of(const HeldByHosts& holds, const std::vector<ForecastHost>& hosts);
 /// of them beside nodes, as keys.
 Hosts hosts_of(const HeldByHosts& holds, const RunCosts& costs, const std::vector<ForecastHost>& hosts, Hosts known);
 
+/// Beside them the other hosts of `known`, which hold nothing: they take part, as nodes may come to them later (Mover).
+/// But for this process.
+Hosts with_empty_hosts(const Hosts& said, const RunCosts& costs, Hosts known);
+
 /// Everything everywhere where memory allows and nothing else is clearly quicker; else what an estimate finds best,
 /// and of the best few what forecast() does, where there are few hosts and nodes. Who takes a node's frozen state has
 /// that beside it. Throws Error where a node fits no host.
