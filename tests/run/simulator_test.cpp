@@ -11,7 +11,12 @@
 namespace lightnet::test::simulator_test {
 namespace {
 
-constexpr std::uint64_t seeds = 500 / slowdown;  // of each kind of world
+// Of each kind of world.
+#ifdef LIGHTNET_LARGE
+constexpr std::uint64_t seeds = 10000;
+#else
+constexpr std::uint64_t seeds = 500 / slowdown;
+#endif
 
 // `LIGHTNET_SEED` in the environment plays one seed again.
 void for_every_seed(const std::function<void(std::uint64_t)>& play_seed) {
