@@ -124,7 +124,7 @@ private:
     std::optional<LiveExplainer> explainer_;
     std::optional<Watcher> watcher_;
     RunScene scene_;
-    std::optional<PictureLock> lock_;  // the last to go
+    std::optional<PictureLock> lock_;  // until all is written
 };
 
 void Run::take_up_checkpoint(const LoadedScene& scene) {
