@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/modes/daemons.hpp"
+#include "transport/start/child.hpp"
 #include "transport/start/cpu_throttle.hpp"
 
 namespace lightnet::moves_run_test {
@@ -91,6 +92,11 @@ TEST(MovesRun, GoesOnElsewhereWhereAHostBecomesSlow) {
         EXPECT_THAT(moved.said, testing::HasSubstr(node.get<std::string>()));
     EXPECT_GE(told["moves"][0]["gain"], 0.2);
     EXPECT_THAT(text_of_file(trace), testing::HasSubstr("\"cat\":\"move\""));
+    const auto drawn =
+        run_program({program("lightnet"), "dot", graph, "--moves", folder.write("moved.run.json", moved.report)}, "",
+                    slowdown * std::chrono::seconds(60));
+    EXPECT_EQ(drawn.code, 0) << drawn.text;
+    EXPECT_THAT(drawn.text, testing::HasSubstr("style=dotted"));
 }
 
 }  // namespace

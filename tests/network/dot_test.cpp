@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/network/graph/check.hpp"
+#include "core/network/graph/dot_moves.hpp"
 #include "lua/load_graph.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/parse.hpp"
@@ -175,6 +176,27 @@ TEST(Dot, ShowsOnePlaceNextToTheOther) {
     EXPECT_THAT(dot, HasSubstr("choose_image -> node_image_1 [label=\"Tile → Pixels\\ninproc\"];"));
     EXPECT_THAT(dot, HasSubstr("node_image_1 -> node_lighting_1 [label=\"Query → 2 × Rgb\\ncall\"];"));
     EXPECT_THAT(dot, Not(HasSubstr("choose_lighting")));
+}
+
+// `a` was at y, and is at x now; the launcher gave `lighting` to y as well.
+TEST(Dot, ShowsWhatMovedAndWhere) {
+    const Graph graph = two_lights();
+    const Plan where = plan(
+        graph, fake_registry(),
+        parse_hosts("place 'x' { a = 1, b = 1, lighting = 1 }\nplace 'y' { lighting = 1, image = 1 }", "hosts.lua"),
+        {{"x", 1}, {"y", 1}});
+    const auto plain = to_dot(graph, fake_registry(), &where);
+    const auto text = with_moves(plain, graph, where,
+                                 {{"a", {"y"}, {"x"}, 3.14}, {"lighting", {}, {"y"}, 5}, {"b", {"gone"}, {}, 7}});
+    EXPECT_THAT(text, HasSubstr("  subgraph cluster_host_1 { left_a_0 [label=\"a\\nuntil 3.1 s\""));
+    EXPECT_THAT(text, HasSubstr("  left_a_0 -> node_a_0 [label=\"a moves\\nat 3.1 s\", style=dotted"));
+    EXPECT_THAT(text, HasSubstr("  launcher -> node_lighting_1 [label=\"lighting moves\\nat 5.0 s\""));
+    EXPECT_THAT(text, HasSubstr("  left_b_1 [label=\"b\\nuntil 7.0 s\"")) << "its host is gone";
+    EXPECT_THAT(text, testing::StartsWith(plain.substr(0, plain.size() - 2)));
+    EXPECT_EQ(with_moves(plain, graph, where, {}), plain);
+    if (std::filesystem::exists("/usr/bin/dot")) {
+        EXPECT_EQ(status_of_dot(text), 0);
+    }
 }
 
 TEST(Dot, IsReadByGraphviz) {

@@ -48,6 +48,14 @@ TEST(ForecastText, IsJsonByItsSchema) {
     EXPECT_EQ(test::complaints_of_schema("forecast", folder.write("f.json", to_json(some_table()))), "");
 }
 
+TEST(RecordedRun, KnowsWhatMoved) {
+    const std::vector<std::string> hosts{"tcp://a:1"}, others{"tcp://b:1", ""};
+    EXPECT_EQ(move_said("caustic goes from tcp://a:1 to tcp://b:1, here"), (DrawnMove{"caustic", hosts, others}));
+    EXPECT_EQ(move_said("soft comes to tcp://a:1"), (DrawnMove{"soft", {}, hosts}));
+    EXPECT_EQ(move_said("soft leaves tcp://b:1, here"), (DrawnMove{"soft", others, {}}));
+    EXPECT_THROW(move_said("soft stays"), Error);
+}
+
 TEST(ForecastHosts, AreSaidByNameAndPlaces) {
     ForecastHostsOptions options;
     options.hosts = {"fast=8", "slow=2"};

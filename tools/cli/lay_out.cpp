@@ -143,8 +143,8 @@ std::optional<std::string> mistaken_layout(const RunningOptions& running) {
     return std::nullopt;
 }
 
-RunCosts costs_for(const Graph& graph, const Registry& registry, const std::string& report) {
-    const auto run = read_recorded_run(report, registry);
+RecordedRun recorded_run_of(const Graph& graph, const Registry& registry, const std::string& report) {
+    auto run = read_recorded_run(report, registry);
     const auto names = [](const Graph& one) {
         std::vector<std::string> all;
         for (const auto& node : one.nodes) all.push_back(node.name);
@@ -152,7 +152,11 @@ RunCosts costs_for(const Graph& graph, const Registry& registry, const std::stri
     };
     if (names(run.graph) != names(graph))
         throw UserError({report, 0}, "is of another graph: its nodes are not those of " + graph.file);
-    return scaled(run.costs, wanted_picture(graph, registry, 0));
+    return run;
+}
+
+RunCosts costs_for(const Graph& graph, const Registry& registry, const std::string& report) {
+    return scaled(recorded_run_of(graph, registry, report).costs, wanted_picture(graph, registry, 0));
 }
 
 std::string hosts_file_text(const Hosts& hosts, const std::vector<std::string>& why) {

@@ -7,6 +7,7 @@
 #include "core/run/forecast/placement.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/options.hpp"
+#include "tools/forecast/recorded_run.hpp"
 
 namespace lightnet {
 
@@ -19,6 +20,9 @@ std::optional<std::string> mistaken_layout(const RunningOptions& running);
 /// samples of a small picture on this machine. Asks the hosts how they are. Says why, and writes --layout-out. Throws
 /// UserError where hosts have nodes already, or don't answer.
 Loaded laid_out(const RunningOptions& running, const Launcher& launcher, Loaded loaded);
+
+/// The run of a report, if it is one of this graph. Throws UserError where it is of another.
+RecordedRun recorded_run_of(const Graph& graph, const Registry& registry, const std::string& report);
 
 /// Of a graph whose costs a report knows; node by name. Throws UserError where the report is of another graph.
 RunCosts costs_for(const Graph& graph, const Registry& registry, const std::string& report);

@@ -57,6 +57,7 @@ public:
         read_edges();
         read_launcher();
         read_places();
+        read_moves();
         return std::move(run_);
     }
 
@@ -178,6 +179,15 @@ private:
         if (others > 0) run_.costs.host_bytes = number_in(report_.at("counters"), "file_bytes") / double(others);
     }
 
+    void read_moves() {
+        if (!report_.has("moves")) return;
+        for (const auto& move : report_.at("moves").list())
+            for (const auto& text : move.at("nodes").list()) {
+                run_.moves.push_back(move_said(text.text()));
+                run_.moves.back().seconds = move.at("seconds").number();
+            }
+    }
+
     const Json& report_;
     RecordedRun run_;
     double blocks_ = 0;
@@ -185,7 +195,35 @@ private:
     std::map<std::size_t, double> questions_;  // that it answered
 };
 
+// "a, b"; this process is "" in plans.
+std::vector<std::string> hosts_in(std::string_view text) {
+    std::vector<std::string> hosts;
+    while (!text.empty()) {
+        const auto comma = text.find(", ");
+        hosts.emplace_back(text.substr(0, comma));
+        if (hosts.back() == own_process) hosts.back().clear();
+        text = comma == std::string_view::npos ? "" : text.substr(comma + 2);
+    }
+    return hosts;
+}
+
 }  // namespace
+
+DrawnMove move_said(const std::string& text) {
+    const auto behind = [&](std::string_view words) {
+        const auto at = text.find(words);
+        return at == std::string::npos ? std::string_view() : std::string_view(text).substr(at + words.size());
+    };
+    DrawnMove move{text.substr(0, text.find(' ')), {}, {}};
+    if (const auto way = behind(" goes from "); !way.empty())
+        move.from = hosts_in(way.substr(0, way.find(" to "))), move.to = hosts_in(behind(" to "));
+    else if (const auto come = behind(" comes to "); !come.empty())
+        move.to = hosts_in(come);
+    else
+        move.from = hosts_in(behind(" leaves "));
+    if (move.from.empty() && move.to.empty()) throw Error("'" + text + "' is no move of a node");
+    return move;
+}
 
 RecordedRun read_recorded_run(const std::filesystem::path& report, const Registry& registry) {
     const auto past = read_past_run(report, registry);

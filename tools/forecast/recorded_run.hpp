@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/network/graph/dot_moves.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/network/graph/plan.hpp"
@@ -20,7 +21,11 @@ struct RecordedRun {
     Plan plan;                        // who did it
     std::vector<ForecastHost> hosts;  // of the plan, at speed 1
     double seconds = 0;               // from loading to writing
+    std::vector<DrawnMove> moves;     // of nodes, in mid-run
 };
+
+/// What a report says of a move: "caustic goes from a to b, c". Throws Error where it says something else.
+DrawnMove move_said(const std::string& text);
 
 /// Reads x.run.json. Throws UserError where it tells too little: of a run of one thread, whose pieces nobody timed, of
 /// one that an older version has recorded, or of one that was not done.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/network/graph/dot.hpp"
+#include "core/network/graph/dot_moves.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
 #include "tools/cli/launcher.hpp"
@@ -32,12 +33,14 @@ struct DotOptions {
     std::string pictures;                  // the EXR that shows what each node gives; "": none
     std::string layout;                    // report by which the hosts are given nodes; "": none
     std::vector<std::string> memory;       // of hosts, for that
+    std::string moves;                     // report of a run that is shown with its moves; "": none
 };
 
 void describe_dot(CLI::App& app, DotOptions& options) {
     add_graph(app, options.graph);
     auto* const hosts = add_hosts(app, options.hosts);
-    add_threads(app, options.threads, "show what places of one process hold")->excludes(hosts);
+    auto* const threads = add_threads(app, options.threads, "show what places of one process hold");
+    threads->excludes(hosts);
     app.add_option("--pictures", options.pictures, "a picture of this graph: each node shows what it gave to it")
         ->type_name("PICTURE.exr");
     auto* const layout =
@@ -47,6 +50,10 @@ void describe_dot(CLI::App& app, DotOptions& options) {
     app.add_option("--layout-memory", options.memory, "what a host may keep of what nodes prepare, or NAME=16G")
         ->type_name("SIZE")
         ->needs(layout);
+    app.add_option("--moves", options.moves, "show who had what at the end of this run, and what had moved")
+        ->type_name("X.run.json")
+        ->excludes(hosts)
+        ->excludes(threads);
     when_taken_apart(app,
                      [&options] { return mistaken_scene(options.graph.file, "to look at it: lightnet scene info"); });
     add_examples(app, {"lightnet dot graphs/paper/figure8.lua | dot -Tsvg > figure8.svg"});
@@ -82,6 +89,12 @@ int draw(const DotOptions& options, const Launcher& launcher) {
     const auto offers = likely_offers(options, loaded.hosts);
     std::map<std::string, std::string> pictures;
     if (!options.pictures.empty()) pictures = write_node_pictures(loaded.graph, registry, options.pictures);
+    if (!options.moves.empty()) {
+        const auto run = recorded_run_of(loaded.graph, registry, options.moves);
+        launcher.out << with_moves(to_dot(loaded.graph, registry, &run.plan, {}, pictures), loaded.graph, run.plan,
+                                   run.moves);
+        return exit_code::done;
+    }
     if (offers.empty()) {
         launcher.out << to_dot(loaded.graph, registry, nullptr, {}, pictures);
         return exit_code::done;
