@@ -1,6 +1,6 @@
 #include "core/film/fit.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cstddef>
