@@ -8,14 +8,14 @@ namespace lightnet {
 bool Coordinator::prepare(std::chrono::nanoseconds most) {
     const auto end = std::chrono::steady_clock::now() + most;
     while (true) {
+        // What has arrived counts, however late it is.
+        while (receive()) {
+        }
         lead_.advance();
         if (lead_.state().all_done()) return true;
         const auto left = end - std::chrono::steady_clock::now();
         if (left.count() <= 0) return false;
-        if (lead_.render(left)) continue;
-        wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(20)));
-        while (receive()) {
-        }
+        if (!lead_.render(left)) wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(20)));
     }
 }
 
