@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/base/unwanted.hpp"
-#include "core/estimate/gather.hpp"
 #include "lua/column.hpp"
 #include "lua/guarded.hpp"
 
@@ -80,7 +77,9 @@ CustomBudget CustomBudget::of(std::size_t questions) {
 void CustomCall::Close::operator()(lua_State* L) const { lua_close(L); }
 
 CustomCall::CustomCall(const CustomProgram& program, std::span<const Query> questions)
-    : program_(program), questions_(questions), left_(CustomBudget::of(questions.size())) {
+    : program_(program),
+      questions_(*program.scene, program.inputs, program.key, questions),
+      left_(CustomBudget::of(questions.size())) {
     state_.reset(lua_newstate(&CustomCall::allocate, this));
     if (!state_) throw Error(program.file, "no memory for a Lua state");
     *static_cast<CustomCall**>(lua_getextraspace(state_.get())) = this;
@@ -133,16 +132,6 @@ void CustomCall::charge(lua_State* L, std::size_t entries) {
     of(L).spend(L, static_cast<std::int64_t>(entries) / 4, 1);
 }
 
-const std::vector<CustomCall::Place>& CustomCall::places() {
-    if (!places_.empty()) return places_;
-    places_.reserve(questions_.size());
-    for (const Query& question : questions_) {
-        const SurfacePoint point = program_.scene->surface(question);
-        places_.push_back({point, dot(question.outgoing, point.normal) < 0 ? -point.normal : point.normal});
-    }
-    return places_;
-}
-
 // q.p, q.n, q.out, q.albedo, and q's functions
 int CustomCall::member(lua_State* L) {
     auto& call = of(L);
@@ -156,14 +145,13 @@ int CustomCall::member(lua_State* L) {
     return guarded(L, [&] {
         const std::size_t count = call.questions_.size();
         charge(L, 3 * count);
-        const auto& places = call.places();
+        const auto& places = call.questions_.places();
         ColumnHead& column = push_column(L, 3, count);
         for (std::size_t i = 0; i < count; ++i) {
             const auto& [point, up] = places[i];
             if (name == "albedo") {
-                const auto bsdf = call.program_.scene->bsdf(point);
-                const Rgb* const albedo = bsdf.diffuse_albedo();
-                set_vectors(column, i, albedo ? Vec3{albedo->r, albedo->g, albedo->b} : Vec3{});
+                const Rgb albedo = call.questions_.albedo(i);
+                set_vectors(column, i, {albedo.r, albedo.g, albedo.b});
             } else
                 set_vectors(column, i, name == "p" ? point.position : name == "n" ? up : call.questions_[i].outgoing);
         }
@@ -181,10 +169,8 @@ int CustomCall::random(lua_State* L) {
     charge(L, 8 * count);
     ColumnHead& column = push_column(L, 2, count);
     for (std::size_t k = 0; k < count; ++k) {
-        const Query& question = call.questions_[k];
-        const auto index =
-            question.sample * static_cast<std::uint32_t>(of_how_many) + static_cast<std::uint32_t>(which - 1);
-        const Vec2 point = Samples(child(question.stream, call.program_.key), index).next_2d();
+        const Vec2 point =
+            call.questions_.random(k, static_cast<std::uint32_t>(which - 1), static_cast<std::uint32_t>(of_how_many));
         column.part(0)[k] = point.x, column.part(1)[k] = point.y;
     }
     return 1;
@@ -213,15 +199,10 @@ int CustomCall::is_open(lua_State* L) {
     return guarded(L, [&] {
         const std::size_t count = call.questions_.size();
         charge(L, 200 * count);
-        const float far = distance > 0 ? static_cast<float>(distance) : std::numeric_limits<float>::infinity();
-        const auto& places = call.places();
         ColumnHead& column = push_column(L, 1, count);
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto& [point, up] = places[k];
-            const bool hidden =
-                call.program_.scene->occluded({point.origin_towards(up), vector_at(directions, k), far});
-            column.data()[k] = hidden ? 0.0f : 1.0f;
-        }
+        for (std::size_t k = 0; k < count; ++k)
+            column.data()[k] =
+                call.questions_.open(k, vector_at(directions, k), static_cast<float>(distance)) ? 1.0f : 0.0f;
         return 1;
     });
 }
@@ -278,24 +259,13 @@ void CustomCall::ask(lua_State* L, int arguments) {
     const std::size_t count = questions_.size(), input = static_cast<std::size_t>(index - 1);
     left_.steps -= steps_of_an_ask * static_cast<std::int64_t>(count);
     if (left_.steps < 0) complain(too_many_steps());
-    std::vector<Rgb> light(count);
+    std::vector<Rgb> light;
     if (directions) {
-        std::vector<GatherRay> rays;
-        for (std::size_t k = 0; k < count; ++k) {
-            const Vec3 direction = vector_at(*directions, k);
-            const Query& question = questions_[k];
-            rays.push_back({{places()[k].point.origin_towards(direction), direction},
-                            child(question.stream, program_.key, 1),
-                            question.sample,
-                            question.depth,
-                            question.pass});
-        }
-        std::vector<GatherResult> results(count);
-        gather(*program_.scene, program_.inputs, input, rays, results);
-        for (std::size_t k = 0; k < count; ++k) light[k] = results[k].light;
+        std::vector<Vec3> ways(count);
+        for (std::size_t k = 0; k < count; ++k) ways[k] = vector_at(*directions, k);
+        light = questions_.ask(input, ways);
     } else {
-        each_colour(lightnet::ask(program_.inputs, input, questions_),
-                    [&](std::size_t q, std::size_t, const Rgb& colour) { light[q] += colour; });
+        light = questions_.ask(input);
     }
     lua_settop(L, first - 1);
     ColumnHead& column = push_column(L, 3, count);

@@ -10,6 +10,7 @@
 
 #include "core/base/math/rgb.hpp"
 #include "core/base/query.hpp"
+#include "core/estimate/question_batch.hpp"
 #include "core/network/light/inputs.hpp"
 #include "core/scene/scene.hpp"
 
@@ -53,12 +54,6 @@ private:
     struct Close {
         void operator()(lua_State* L) const;
     };
-    /// Where the questions lie.
-    struct Place {
-        SurfacePoint point;
-        Vec3 up;  // the normal on the side that is asked about
-    };
-
     static CustomCall& of(lua_State* L);
     static void* allocate(void* self, void* block, std::size_t old_size, std::size_t new_size);
     static void count(lua_State* L, lua_Debug* event);
@@ -72,15 +67,13 @@ private:
     void open(lua_State* L);
     void run(lua_State* L);
     void ask(lua_State* L, int arguments);
-    const std::vector<Place>& places();
     [[noreturn]] void fail(lua_State* L, int status);
     std::string too_many_steps() const;
 
     const CustomProgram& program_;
-    std::span<const Query> questions_;
+    QuestionBatch questions_;
     CustomBudget left_;
     const char* too_large_ = nullptr;  // a piece of memory that there was none for
-    std::vector<Place> places_;
     std::unique_ptr<lua_State, Close> state_;
 };
 

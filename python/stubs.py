@@ -32,6 +32,7 @@ from typing import Any
 from .errors import Error as Error, NoProgram as NoProgram, NoWorker as NoWorker, UnknownKey as UnknownKey
 from .errors import UserError as UserError
 from .graph import File as File, Node as Node, check as check, dot as dot, load as load
+from .operators import Questions as Questions, operator as operator
 from .picture import Picture as Picture, read as read
 from .race import Race as Race, race as race
 from .run import Run as Run, progress as progress, render as render

@@ -10,6 +10,7 @@
 #include "nodes/examples/candela/candela_kinds.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tools/cli/launcher.hpp"
+#include "tools/outside/outside.hpp"
 #include "tools/session/run.hpp"
 #include "tools/session/sequence.hpp"
 #include "tools/session/session.hpp"
@@ -26,7 +27,7 @@ int perform(const std::vector<std::string>& words) try {
     lightnet::raise_descriptor_limit();
     lightnet::Registry registry{lightnet::standard_nodes()};
     registry.add(lightnet::candela_kinds());  // an example: code that was written for something else
-    registry.add({lightnet::custom_kind()});
+    registry.add({lightnet::custom_kind(), lightnet::outside_kind()});
     lightnet::load_installed_plugins(registry, std::cerr);
     const auto run = [&](const lightnet::RunRequest& request) { return lightnet::run(request, registry); };
     lightnet::Launcher launcher{registry, run, std::cout, std::cerr};

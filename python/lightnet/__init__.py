@@ -13,6 +13,7 @@ Constructors are those of `lightnet describe`, with the same parameters; help(ln
 
 from .errors import Error, NoProgram, NoWorker, UnknownKey, UserError
 from .graph import File, Node, check, dot, load
+from .operators import Questions, operator
 from .picture import Picture, read
 from .race import Race, race
 from .run import Run, progress, render
@@ -20,8 +21,8 @@ from .scenes import Lamp, Mesh, World
 from .session import Session
 
 __all__ = [
-    "Error", "File", "Lamp", "Mesh", "NoProgram", "NoWorker", "Node", "Picture", "Race", "Run", "Session", "UnknownKey", "UserError", "World",
-    "check", "dot", "load", "progress", "race", "read", "render",
+    "Error", "File", "Lamp", "Mesh", "NoProgram", "NoWorker", "Node", "Picture", "Questions", "Race", "Run", "Session", "UnknownKey", "UserError",
+    "World", "check", "dot", "load", "operator", "progress", "race", "read", "render",
 ]  # fmt: skip
 
 _classes = {}

@@ -7,6 +7,7 @@ from typing import Any, Literal
 from .errors import Error as Error, NoProgram as NoProgram, NoWorker as NoWorker, UnknownKey as UnknownKey
 from .errors import UserError as UserError
 from .graph import File as File, Node as Node, check as check, dot as dot, load as load
+from .operators import Questions as Questions, operator as operator
 from .picture import Picture as Picture, read as read
 from .race import Race as Race, race as race
 from .run import Run as Run, progress as progress, render as render
@@ -360,6 +361,22 @@ class IrradianceCache(Node):
         keep: str | None = ...,
         glossy_rays: int | None = ...,
         groups: bool | None = ...,
+        name: str | None = ...,
+    ) -> None: ...
+
+class Outside(Node):
+    """a function of the process that started this run, such as Python's: columns in, columns out.
+
+    Inputs: 0 that give light.
+
+    function: text
+        what that process knows it by
+    """
+
+    def __init__(
+        self,
+        *inputs: Node,
+        function: str | None = ...,
         name: str | None = ...,
     ) -> None: ...
 

@@ -25,11 +25,12 @@ def path():
     raise NoProgram("there is no program lightnet in the PATH; $LIGHTNET may name it")
 
 
-def said(*words, text=None, pass_fds=()):
+def said(*words, text=None, pass_fds=(), environment=None):
     """What the program prints on standard output. `text`: its standard input. Raises Error."""
     done = subprocess.run(
-        [path(), *words], input=text, capture_output=True, text=True, pass_fds=pass_fds, start_new_session=True
-    )
+        [path(), *words], input=text, capture_output=True, text=True, pass_fds=pass_fds, start_new_session=True,
+        env={**os.environ, **(environment or {})},
+    )  # fmt: skip
     if done.returncode != 0:
         raise error_of(done.returncode, done.stderr)
     return done.stdout

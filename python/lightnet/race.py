@@ -1,9 +1,10 @@
 """Races: graphs that render for the same time, in turns, held against a reference."""
 
+import contextlib
 import csv
 import os
 
-from . import graph, program
+from . import graph, operators, program
 from .errors import UserError
 
 
@@ -40,7 +41,9 @@ def race(graphs, reference, seconds=60, seeds=3, **options):
             reference = truth
         page, table = os.path.join(folder, "race.html"), os.path.join(folder, "race.csv")
         words += ["--reference", os.fspath(reference), "--seconds", repr(float(seconds)), "--seeds", str(seeds)]
-        said = program.said("race", *words, "-o", page, "--csv", table, *program.flags(options))
+        with contextlib.closing(operators.served(list(graphs.values()), folder, options)) as functions:
+            words += ["-o", page, "--csv", table, *program.flags(options)]
+            said = program.said("race", *words, environment=functions.environment)
         with open(table, encoding="utf-8", newline="") as file:
             rows = [_numbers(row) for row in csv.DictReader(file)]
         with open(page, encoding="utf-8") as file:

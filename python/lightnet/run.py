@@ -1,12 +1,13 @@
 """Runs: each is one process of `lightnet`, which ends with whoever asked for it."""
 
+import contextlib
 import json
 import os
 import signal
 import subprocess
 import tempfile
 
-from . import graph, picture, program
+from . import graph, operators, picture, program
 from .errors import error_of
 
 patience = 20  # seconds that a run has to end when it is told to
@@ -31,13 +32,14 @@ class Run:
 
     def __iter__(self):
         with program.folder() as folder:
-            try:
-                yield from self._pictures(folder)
-            finally:
-                self._end()
+            with contextlib.closing(operators.served(self.image, folder, self.options)) as functions:
+                try:
+                    yield from self._pictures(folder, functions)
+                finally:
+                    self._end()
 
-    def _pictures(self, folder):
-        self._start(folder)
+    def _pictures(self, folder, functions):
+        self._start(folder, functions.environment)
         shown = None
         for line in self._process.stderr:
             if not self._hear(line):
@@ -48,10 +50,10 @@ class Run:
                 yield picture.in_folder(folder, whole=False)
         code = self._process.wait()
         if code != 0 and not (code == interrupted and self._cancelled and _identity(folder)):
-            raise error_of(code, "\n".join(self.said))
+            raise functions.failure or error_of(code, "\n".join(self.said))
         yield picture.in_folder(folder, "\n".join(self.said))
 
-    def _start(self, folder):
+    def _start(self, folder, environment):
         words, text = graph.words_of(self.image, folder)
         exr = os.path.join(folder, "picture.exr")
         command = [program.path(), "run", *words, "-o", exr, "--npz", exr[:-3] + "npz", "--compression", "none"]
@@ -64,7 +66,7 @@ class Run:
             with program.uninterrupted():
                 self._process = subprocess.Popen(
                     command, stdin=given, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                    start_new_session=True,
+                    start_new_session=True, env={**os.environ, **environment},
                 )  # fmt: skip
         if self._cancelled:
             self.cancel()

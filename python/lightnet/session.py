@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 
-from . import graph, picture, program
+from . import graph, operators, picture, program
 from .errors import Error, UserError, error_of
 from .run import patience
 
@@ -26,16 +26,17 @@ class Session:
     def __init__(self, image, **options):
         self._folder = program.folder()
         folder = self._folder.__enter__()
-        self._at, self._number, self._held, self._process = folder, 0, {}, None
+        self._at, self._number, self._held, self._process, self._functions = folder, 0, {}, None, None
         try:
+            self._functions = operators.served(image, folder, options)
             with program.uninterrupted():
-                self._process = self._start(image, folder, options)
+                self._process = self._start(image, folder, options, self._functions.environment)
         except BaseException:
             self.close()
             raise
 
     @staticmethod
-    def _start(image, folder, options):
+    def _start(image, folder, options, environment):
         words, text = graph.words_of(image, folder)
         if text is not None:
             words = [os.path.join(folder, "graph.json")]
@@ -46,7 +47,7 @@ class Session:
         with open(os.path.join(folder, "said"), "w", encoding="utf-8") as said:
             return subprocess.Popen(
                 [*command, "--json", *program.flags(options)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                stderr=said, text=True, start_new_session=True,
+                stderr=said, text=True, start_new_session=True, env={**os.environ, **environment},
             )  # fmt: skip
 
     def picture(self):
@@ -84,13 +85,17 @@ class Session:
             if event.get("id") != number:
                 continue
             if event["event"] == "error":
-                raise UserError("\n".join(_text(problem) for problem in event["problems"]))
+                problem = self._functions.failure or UserError("\n".join(_text(one) for one in event["problems"]))
+                self._functions.failure = None
+                raise problem
             if event["event"] == "picture":
                 made = picture.in_folder(self._at, whole=event["finished"])
                 made.samples_so_far = event["samples"]
                 yield made
                 if event["finished"]:
                     return
+        if self._functions.failure:
+            raise self._functions.failure
         raise error_of(self._process.wait(), self._said()) if self._process.wait() else Error("the session is over")
 
     def _said(self):
@@ -101,6 +106,8 @@ class Session:
         """Ends it. Nothing, where that was done already."""
         if self._process:
             self._end(self._process)
+        if self._functions:
+            self._functions.close()
         self._folder.__exit__(None, None, None)
 
     @staticmethod

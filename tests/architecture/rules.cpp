@@ -44,7 +44,7 @@ const std::map<std::string, Names, std::less<>> may_include{
     {"transport/daemon", transport_sees({"transport/address", "transport/keys", "transport/wire", "transport/places",
                                          "transport/lines", "transport/zmq", "transport/store"})},
     {"lua", {"core/base", "core/scene", "core/network", "core/estimate"}},
-    {"tools", transport_sees({"nodes", "lua", "transport/address", "transport/keys", "transport/wire",
+    {"tools", transport_sees({"nodes", "lua", "core/estimate", "transport/address", "transport/keys", "transport/wire",
                               "transport/places", "transport/lines", "transport/zmq", "transport/store",
                               "transport/start", "transport/launcher", "transport/daemon"})},
 };

@@ -374,5 +374,123 @@ class Arrays(InFolder):
             ln.World([ln.Mesh(**self.FLOOR), ln.Mesh(**self.FLOOR)])
 
 
+class Operators(InFolder):
+    """Functions of this interpreter as operators."""
+
+    SCENE = GRAPHS / "cornell_box.pbrt"
+
+    def picture(self, light, **options):
+        scene = ln.Scene(self.SCENE)
+        image = ln.RayTracer(light, scene=scene, samples=4, name="image")
+        return ln.render(image, **{"size": (24, 18), "threads": 1, **options})
+
+    def lua(self, text, **options):
+        """The picture of the same function, written in Lua."""
+        file = self.folder / "g.lua"
+        file.write_text(
+            f"direct = DirectLighting {{}}\nit = Custom {{ direct, light = {text} }}\n"
+            f"scene = Scene {{ '{self.SCENE}' }}\n"
+            "image = RayTracer { it, scene = scene, samples = 4, film = { 24, 18 } }\n"
+        )
+        return ln.render(ln.load(file), size=(24, 18), threads=1, **options)
+
+    def assert_same(self, one, other):
+        self.assertTrue(numpy.array_equal(one.beauty, other.beauty))
+        self.assertGreater(one.beauty.max(), 0)
+
+    def test_answers_with_the_bits_of_lua(self):
+        @ln.operator
+        def it(q, ask):
+            bounced = ask(0, q.hemisphere(q.n, q.random()))
+            free = q.open(q.hemisphere(q.n, q.random(1, 4)), 300).astype("f4")[:, None]
+            return ask(0) + q.albedo * bounced + free * numpy.float32(0.25)
+
+        direct = ln.DirectLighting(name="direct")
+        python = self.picture(it(direct, name="it"))
+        lua = self.lua(
+            "function(q, ask) local bounced = ask(1, hemisphere(q.n, q:random())) "
+            "local free = q:open(hemisphere(q.n, q:random(2, 4)), 300) "
+            "return ask(1) + q.albedo * bounced + free * 0.25 end"
+        )
+        self.assert_same(python, lua)
+        self.assert_same(self.picture(it(direct, name="it"), threads=3), python)
+
+    def test_has_constants_and_a_name(self):
+        @ln.operator
+        def facing(q, ask, power=1):
+            "How much a surface faces us."
+            return numpy.abs((q.n * q.out).sum(axis=1)) ** power
+
+        one, two = facing(), facing(power=2)
+        self.assertEqual(facing.__doc__, "How much a surface faces us.")
+        first, second = self.picture(one), self.picture(two)
+        self.assertEqual(list(first.layers), ["emission", "facing"])
+        bright = first.layers["facing"]
+        self.assertTrue((bright[..., 0] == bright[..., 1]).all())
+        self.assertLess(second.layers["facing"].mean(), bright.mean())
+        both = self.picture(ln.Combine(one, two))
+        self.assertEqual(list(both.layers), ["emission", "facing", "facing_2"])
+        self.assertTrue(numpy.array_equal(both.layers["facing"], bright))
+
+    def test_may_return_one_number(self):
+        grey = self.picture(ln.operator(lambda q, ask: 0.5)(name="grey")).layers["grey"]
+        self.assertEqual(grey[9, 12].tolist(), [0.5, 0.5, 0.5])
+
+    def test_raises_what_its_function_raises(self):
+        @ln.operator
+        def wrong(q, ask):
+            raise ArithmeticError("not today")
+
+        with self.assertRaisesRegex(ArithmeticError, "not today"):
+            self.picture(wrong())
+        for answer, why in ((numpy.zeros(7), "returns one number, or an array of shape"), ("x", "could not convert")):
+            with self.assertRaisesRegex(ValueError, why):
+                self.picture(ln.operator(lambda q, ask, answer=answer: answer)())
+        with self.assertRaisesRegex(IndexError, "no input 1"):
+            self.picture(ln.operator(lambda q, ask: ask(1))(ln.DirectLighting()))
+        self.assertEqual(children(), [])
+        self.assertEqual(folders(), [])
+
+    def test_ends_while_a_function_thinks(self):
+        thinks, go = threading.Event(), threading.Event()
+
+        @ln.operator
+        def slow(q, ask):
+            thinks.set()
+            go.wait(60)
+            return 0
+
+        going = ln.progress(ln.RayTracer(slow(), scene=ln.Scene(self.SCENE), samples=4), every=0.1, size=(24, 18), threads=1)
+        threading.Thread(target=lambda: (thinks.wait(60), going.cancel())).start()
+        began = time.monotonic()
+        with self.assertRaises(ln.Error):
+            list(going)
+        self.assertLess(time.monotonic() - began, 50, "the run waited for the function")
+        go.set()
+        self.assertEqual(folders(), [])
+
+    def test_stays_in_this_process(self):
+        for options in ({"local_workers": 1}, {"hosts": "a,b"}, {"ssh": "a"}):
+            with self.assertRaisesRegex(ln.UserError, "which other processes can't ask"):
+                self.picture(ln.operator(lambda q, ask: 0.5)(), **options)
+
+    def test_is_checked_and_edited_as_others_are(self):
+        @ln.operator
+        def grey(q, ask):
+            return ask(0) * 0.5
+
+        direct = ln.DirectLighting(name="direct")
+        image = ln.RayTracer(grey(direct), scene=ln.Scene(self.SCENE), samples=4, film={"size": (24, 18)}, name="image")
+        ln.check(image)
+        self.assertIn("grey", ln.dot(image))
+        with ln.Session(image, size=(24, 18), threads=1) as session:
+            first = session.picture()
+            second = session.edit(set={"direct.samples": 4})
+        self.assertTrue(numpy.array_equal(first.beauty, self.picture(grey(direct)).beauty))
+        self.assertFalse(numpy.array_equal(first.beauty, second.beauty))
+        with self.assertRaisesRegex(ln.Error, "LIGHTNET_OUTSIDE"):
+            ln.render(ln.RayTracer(ln.Outside(function="x"), scene=ln.Scene(self.SCENE)), size=(8, 8), threads=1)
+
+
 if __name__ == "__main__":
     unittest.main()
