@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/run/schedule/scheduler.hpp"
@@ -33,6 +36,28 @@ struct WorldStep {
     std::size_t at = 0;     // in a replica's queue
 
     bool is_fault() const { return kind >= Kind::lose_ask; }
+};
+
+/// What a state is made of, as a number; equal but for rounding gives the same.
+class Digest {
+public:
+    template <class Value>
+    Digest& operator<<(Value value) {
+        if constexpr (std::is_floating_point_v<Value>)
+            return *this << (std::abs(value) < 1e9 ? std::llround(1e4 * value) : std::numeric_limits<long long>::max());
+        else
+            return add(static_cast<std::uint64_t>(value));
+    }
+    Digest& operator<<(const std::string& text) { return add(std::hash<std::string>()(text)); }
+    std::uint64_t hash() const { return hash_; }
+
+private:
+    Digest& add(std::uint64_t number) {
+        hash_ = (hash_ ^ number) * 0x9e3779b97f4a7c15u;
+        hash_ ^= hash_ >> 29;
+        return *this;
+    }
+    std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
 /// Two real Schedulers, each of which wants some bundles, and three hosts of one place each, which answer one copy
@@ -112,23 +137,23 @@ public:
     }
 
     /// All that decides what may follow, times as seconds from now, copies by the order in which they were sent.
-    std::string digest() const {
-        std::ostringstream text;
-        text << faults_ << ' ' << passes_ << ' ' << idle_passes_ << '\n';
+    std::uint64_t digest() const {
+        Digest text;
+        const auto known = known_copies();
+        text << faults_ << passes_ << idle_passes_;
         for (const auto& replica : replicas_) {
-            text << replica.there << replica.process << ':';
-            for (const auto& ask : replica.queue) text << ask.asker << '.' << rank(ask) << ' ';
+            text << replica.there << replica.process;
+            for (const auto& ask : replica.queue) text << ask.asker << rank(known, ask);
         }
-        std::multiset<std::string> answers, notices;
-        for (const auto& answer : answers_) {
-            std::ostringstream one;
-            one << answer.ask.asker << '.' << rank(answer.ask) << '/' << answer.fill << ' ';
-            answers.insert(one.str());
+        std::multiset<std::array<std::size_t, 3>> answers, notices;  // whose order decides nothing
+        for (const auto& [ask, fill] : answers_) answers.insert({ask.asker, rank(known, ask), fill});
+        for (const auto& one : notices_) notices.insert({one.asker, one.replica, one.died});
+        for (const auto& of : {answers, notices}) {
+            text << of.size();
+            for (const auto& one : of) text << one[0] << one[1] << one[2];
         }
-        for (const auto& answer : answers) text << answer;
-        for (const auto& one : notices_) text << 'n' << one.asker << one.replica << one.died;
-        for (const auto& asker : askers_) describe(text, asker);
-        return text.str();
+        for (const auto& asker : askers_) describe(text, known[asker.number], asker);
+        return text.hash();
     }
 
 private:
@@ -267,45 +292,56 @@ private:
         if (wrong_.empty()) wrong_ = what;
     }
 
-    // Of all copies that anybody still knows of, how many were sent before.
-    std::size_t rank(const Ask& ask) const {
-        std::set<Scheduler::CopyId> known;
+    using Copies = std::vector<Scheduler::CopyId>;
+
+    // By asker: copies that anybody still knows of, as they were sent.
+    std::array<Copies, 2> known_copies() const {
+        std::array<Copies, 2> known;
         for (const auto& replica : replicas_)
-            for (const auto& other : replica.queue)
-                if (other.asker == ask.asker) known.insert(other.copy);
-        for (const auto& answer : answers_)
-            if (answer.ask.asker == ask.asker) known.insert(answer.ask.copy);
-        const auto& in_flight = askers_[ask.asker].scheduler.in_flight();
-        for (Scheduler::Replica replica = 0; replica < replicas_.size(); ++replica) {
-            for (const auto& copy : in_flight.of(replica).copies) known.insert(copy.id);
-            for (const auto& [copy, work] : in_flight.of(replica).written_off) known.insert(copy);
+            for (const auto& ask : replica.queue) known[ask.asker].push_back(ask.copy);
+        for (const auto& [ask, fill] : answers_) known[ask.asker].push_back(ask.copy);
+        for (const auto& asker : askers_) {
+            auto& copies = known[asker.number];
+            for (Scheduler::Replica replica = 0; replica < replicas_.size(); ++replica) {
+                const auto& account = asker.scheduler.in_flight().of(replica);
+                for (const auto& copy : account.copies) copies.push_back(copy.id);
+                for (const auto& [copy, work] : account.written_off) copies.push_back(copy);
+            }
+            std::sort(copies.begin(), copies.end());
+            copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
         }
-        return std::size_t(std::distance(known.begin(), known.lower_bound(ask.copy)));
+        return known;
+    }
+    static std::size_t rank(const Copies& known, Scheduler::CopyId copy) {
+        return std::size_t(std::lower_bound(known.begin(), known.end(), copy) - known.begin());
+    }
+    static std::size_t rank(const std::array<Copies, 2>& known, const Ask& ask) {
+        return rank(known[ask.asker], ask.copy);
     }
 
-    void describe(std::ostream& text, const Asker& asker) const {
+    void describe(Digest& text, const Copies& known, const Asker& asker) const {
         const auto& scheduler = asker.scheduler;
-        text << '\n' << asker.blamed << '|';
+        text << asker.blamed << asker.accepted.size();
         for (const auto& [work, times] : asker.accepted) text << work;
         for (Scheduler::Replica replica = 0; replica < scheduler.replicas().end(); ++replica) {
             const auto& state = scheduler.replicas()[replica];
-            text << '|' << asker.knows.contains(replica) << state.present << state.silent << state.refused << ' '
-                 << state.others << ' ' << state.patience << ' ' << state.last_reply - now_ << ' '
-                 << state.last_sign - now_ << ' ' << scheduler.order().key(replica) << ' '
-                 << scheduler.order().completion_time(replica, 1);
-            for (const auto& copy : scheduler.in_flight().of(replica).copies)
-                text << " c" << rank({asker.number, copy.id}) << ' ' << copy.work << ' ' << copy.sent - now_ << ' '
-                     << copy.expected - now_ << ' ' << copy.late - now_ << ' ' << copy.overdue - now_;
-            for (const auto& [copy, work] : scheduler.in_flight().of(replica).written_off)
-                text << " w" << rank({asker.number, copy}) << ' ' << work;
+            text << asker.knows.contains(replica) << state.present << state.silent << state.refused << state.others
+                 << state.patience << state.last_reply - now_ << state.last_sign - now_
+                 << scheduler.order().key(replica) << scheduler.order().completion_time(replica, 1);
+            const auto& account = scheduler.in_flight().of(replica);
+            text << account.copies.size() << account.written_off.size();
+            for (const auto& copy : account.copies)
+                text << rank(known, copy.id) << copy.work << copy.sent - now_ << copy.expected - now_
+                     << copy.late - now_ << copy.overdue - now_;
+            for (const auto& [copy, work] : account.written_off) text << rank(known, copy) << work;
         }
         const auto& queues = scheduler.backlog().queues;
         for (const auto* queue : {&queues.first, &queues.retries, &queues.overdue}) {
-            text << "|q";
+            text << '|';
             for (const auto work : *queue)
                 if (const auto* item = scheduler.backlog().find(work)) text << work << item->waiting;
         }
-        text << '|' << scheduler.next_tick() - now_ << ' ' << scheduler.has_waiting();
+        text << scheduler.next_tick() - now_ << scheduler.has_waiting();
     }
 
     WorldBounds bounds_;
