@@ -254,12 +254,12 @@ void Socket::answer_with(const KeyPair& own) {
 }
 
 SendResult Socket::try_send(Frames& frames) try {
-    happens_before_receiving();
     quiet_ = false;
     for (auto& frame : frames) {
         const auto more = &frame == &frames.back() ? zmq::send_flags::none : zmq::send_flags::sndmore;
         // only the first can be refused
         auto message = message_of(frame);
+        happens_before_receiving();
         if (!socket_->send(message, more | zmq::send_flags::dontwait)) return SendResult::line_is_full;
         frame = MessageFrame();
     }
