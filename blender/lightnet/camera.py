@@ -1,10 +1,36 @@
-"""The camera of a scene as Mitsuba has cameras."""
+"""Cameras and views of a scene as Mitsuba has cameras."""
 
+import dataclasses
 import math
 
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from . import xml
+
+
+@dataclasses.dataclass
+class View:
+    """From where a picture is seen, and how much."""
+
+    matrix: Matrix  # of what stands before the eye into the world; the eye looks along -z
+    half: tuple  # width and height of what is seen, at distance 1 (orthographic: anywhere)
+    middle: tuple  # of it
+    orthographic: bool
+    clip: tuple  # nearest and farthest, scene units
+    lens: tuple | None  # radius of the aperture and distance of what is sharp; None: all is sharp
+    size: tuple  # pixels
+    name: str
+
+    def looks_along(self):
+        """What `camera` of a graph's scene says of it: where from, where to, what is up, degrees across the shorter side.
+        None: no such words say it."""
+        if self.orthographic or self.lens or max(map(abs, self.middle)) > 1e-5:
+            return None
+        eye, turn = self.matrix.translation, self.matrix.to_3x3()
+        to, up = eye + turn @ Vector((0, 0, -1)), turn @ Vector((0, 1, 0))
+        wide, high = self.half
+        shorter = wide if self.size[0] <= self.size[1] else high
+        return {"from": list(eye), "to": list(to), "up": list(up), "fov": math.degrees(2 * math.atan(shorter))}
 
 
 def size_of(scene):
@@ -36,31 +62,53 @@ def lens_of(camera):
     return length / (2 * max(data.dof.aperture_fstop, 1e-5)), max(distance, 1e-5)
 
 
-def sensor(camera, scene, report):
-    """The element of an evaluated camera object."""
+def view_of(camera, scene, report):
+    """What an evaluated camera object sees."""
     data = camera.data
     if data.type == "PANO":
         report.missing("panoramic cameras", camera.name)
     if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:
         report.missing("pixels that are not square", scene.name)
-    (wide, high), (x, y) = frame_of(data, scene)
-    lens = lens_of(camera)
-    orthographic = data.type == "ORTHO"
-    kind = "orthographic" if orthographic else "thinlens" if lens else "perspective"
+    half, middle = frame_of(data, scene)
+    return View(
+        camera.matrix_world.normalized(), half, middle, data.type == "ORTHO", (data.clip_start, data.clip_end),
+        lens_of(camera), size_of(scene), camera.name,
+    )
+
+
+def view_of_region(context, size):
+    """What is seen in a region of Blender's window, in so many pixels."""
+    seen, space = context.region_data, context.space_data
+    projection = seen.window_matrix
+    orthographic = projection[3][3] != 0
+    half = 1 / projection[0][0], 1 / projection[1][1]
+    along = 3 if orthographic else 2
+    sign = -1 if orthographic else 1
+    middle = sign * projection[0][along] * half[0], sign * projection[1][along] * half[1]
+    camera = context.scene.camera if seen.view_perspective == "CAMERA" else None
+    lens = lens_of(camera) if camera and camera.type == "CAMERA" else None
+    clip = (space.clip_start, space.clip_end)
+    return View(seen.view_matrix.inverted().normalized(), half, middle, orthographic, clip, lens, size, "the viewport")
+
+
+def sensor(view, report):
+    """The element of a view."""
+    (wide, high), (x, y) = view.half, view.middle
+    kind = "orthographic" if view.orthographic else "thinlens" if view.lens else "perspective"
     turned = Matrix(((-1, 0, 0, 0), (0, 1, 0, 0), (0, 0, -1, 0), (0, 0, 0, 1)))
-    stood = camera.matrix_world.normalized() @ turned
-    if orthographic:
+    stood = view.matrix @ turned
+    if view.orthographic:
         stood = stood @ Matrix.Diagonal((wide, wide, 1, 1))
-        if lens:
-            report.missing("depth of field of orthographic cameras", camera.name)
+        if view.lens:
+            report.missing("depth of field of orthographic cameras", view.name)
     element = xml.Element("sensor", type=kind).add(xml.transform(stood))
-    if not orthographic:
+    if not view.orthographic:
         element.add(xml.number("fov", math.degrees(2 * math.atan(wide))), xml.word("fov_axis", "x"))
-    if lens and not orthographic:
-        element.add(xml.number("aperture_radius", lens[0]), xml.number("focus_distance", lens[1]))
+    if view.lens and not view.orthographic:
+        element.add(xml.number("aperture_radius", view.lens[0]), xml.number("focus_distance", view.lens[1]))
     if x or y:
         element.add(xml.number("principal_point_offset_x", x / (2 * wide)))
         element.add(xml.number("principal_point_offset_y", -y / (2 * high)))
-    element.add(xml.number("near_clip", data.clip_start), xml.number("far_clip", data.clip_end))
-    width, height = size_of(scene)
+    element.add(xml.number("near_clip", view.clip[0]), xml.number("far_clip", view.clip[1]))
+    width, height = view.size
     return element.add(xml.Element("film", type="hdrfilm").add(xml.integer("width", width), xml.integer("height", height)))

@@ -1,4 +1,4 @@
-"""The render engine: F12 and Ctrl-F12."""
+"""The render engine: F12, Ctrl-F12, and the viewport."""
 
 import os
 import shutil
@@ -8,7 +8,7 @@ import time
 import bpy
 import numpy
 
-from . import graph, program
+from . import graph, program, viewport
 from .camera import size_of
 from .export import Export, plain
 from .picture import Picture
@@ -59,6 +59,26 @@ class LightnetEngine(bpy.types.RenderEngine):
         for name, channels, letters, kind in passes_of(scene, layer):
             self.register_pass(scene, layer, name, channels, letters, kind)
 
+    def __del__(self):
+        if "_view" in self.__dict__:
+            self._view.close()
+
+    def view_update(self, context, depsgraph):
+        """Called when something in the scene of a rendered viewport is another, and first of all."""
+        if "_view" not in self.__dict__:
+            self._view = viewport.Viewport()
+        self._view.change()
+
+    def view_draw(self, context, depsgraph):
+        """Called whenever a rendered viewport is drawn."""
+        if "_view" not in self.__dict__:
+            self._view = viewport.Viewport()
+        try:
+            self._view.draw(self, context, depsgraph)
+        except (OSError, ValueError) as mistake:
+            self._view.mistake = str(mistake)
+            self.update_stats("", str(mistake))
+
     def render(self, depsgraph):
         """Called in a thread of Blender's, for each frame and view layer."""
         layer, (width, height) = depsgraph.view_layer.name, size_of(depsgraph.scene)
@@ -79,9 +99,7 @@ class LightnetEngine(bpy.types.RenderEngine):
         settings, layer = scene.lightnet, depsgraph.view_layer
         began = time.monotonic()
         self.update_stats("", "exporting")
-        preferences = bpy.context.preferences.addons.get(__package__)
-        chosen = bpy.path.abspath(preferences.preferences.program) if preferences else ""
-        where = program.path_of(chosen)
+        where = program.path_of(viewport.chosen_program())
         export = Export(folder, scene, depsgraph, layer)
         export.write()
         for line in export.report.lines():
@@ -229,4 +247,5 @@ def unregister():
     bpy.app.handlers.render_cancel.remove(Workplace.remove)
     bpy.app.handlers.render_complete.remove(Workplace.remove)
     Workplace.remove()
+    viewport.close_all()
     bpy.utils.unregister_class(LightnetEngine)

@@ -19,9 +19,11 @@ def plain(name):
 class Export:
     """Writes into a folder that may have files of frames before: what is there by the same bytes stays."""
 
-    def __init__(self, folder, scene, depsgraph, view_layer=None):
+    def __init__(self, folder, scene, depsgraph, view_layer=None, view=None):
+        """view: what the picture is seen from; else the scene's camera."""
         self.folder, self.scene, self.depsgraph = folder, scene, depsgraph
         self.report = Report()
+        self.view = view or self._view_of_camera()
         self.groups = {}  # names of lamps by group
         self._used, self._surfaces, self._parts, self._ids = set(), {}, {}, set()
         self._known_groups = {group.name for group in view_layer.lightgroups} if view_layer else set()
@@ -29,23 +31,27 @@ class Export:
         self._meshes = {}
         self.triangles = 0
 
-    def write(self):
-        """Writes all of it, and removes what is no longer used."""
-        root = xml.Element("scene", version="3.0.0")
+    def _view_of_camera(self):
         if self.scene.camera is None:
             raise ValueError("the scene has no camera")
-        root.add(camera.sensor(self.scene.camera.evaluated_get(self.depsgraph), self.scene, self.report))
+        return camera.view_of(self.scene.camera.evaluated_get(self.depsgraph), self.scene, self.report)
+
+    def write(self, name="scene.xml"):
+        """Writes all of it, and removes what is no longer used."""
+        root = xml.Element("scene", version="3.0.0")
+        root.add(camera.sensor(self.view, self.report))
         self._gather()
         for element in world.elements(self.depsgraph.scene, self):
             self._body.append(element)
         if self.depsgraph.scene.world:
             self._join(world.name, self.depsgraph.scene.world.lightgroup)
         root.add(*self._materials, *self._body)
-        with open(os.path.join(self.folder, "scene.xml"), "w", encoding="utf-8") as file:
+        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
             file.write("\n".join(root.lines()) + "\n")
-        for name in os.listdir(self.folder):
-            if name.startswith(("mesh-", "map-", "world-", "slide-")) and name not in self._used:
-                os.remove(os.path.join(self.folder, name))
+        self._used.add(name)
+        for found in os.listdir(self.folder):
+            if found.startswith(("mesh-", "map-", "world-", "slide-", "scene-")) and found not in self._used:
+                os.remove(os.path.join(self.folder, found))
 
     def write_data(self, data, kind, ending):
         """The name of a file with these bytes, written unless it is there."""
@@ -60,14 +66,14 @@ class Export:
 
     def may_see(self, middle, radius):
         """Does the camera perhaps see something of this ball?"""
-        thing = self.scene.camera.evaluated_get(self.depsgraph)
-        (wide, high), (x, y) = camera.frame_of(thing.data, self.scene)
-        place = thing.matrix_world.normalized().inverted() @ middle
+        (wide, high), (x, y) = self.view.half, self.view.middle
+        place = self.view.matrix.inverted() @ middle
         depth = -place.z
         if depth + radius <= 0:
             return False
-        far = 1 if thing.data.type == "ORTHO" else depth + radius  # what is seen is widest there
-        middle_x, middle_y = (x, y) if thing.data.type == "ORTHO" else (x * depth, y * depth)
+        flat = self.view.orthographic
+        far = 1 if flat else depth + radius  # what is seen is widest there
+        middle_x, middle_y = (x, y) if flat else (x * depth, y * depth)
         return abs(place.x - middle_x) <= wide * far + radius and abs(place.y - middle_y) <= high * far + radius
 
     def put(self, name, value):

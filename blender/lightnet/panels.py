@@ -30,6 +30,14 @@ class LIGHTNET_PT_light(Panel, bpy.types.Panel):
             layout.prop(settings, name)
 
 
+class LIGHTNET_PT_viewport(Panel, bpy.types.Panel):
+    bl_label = "Viewport"
+
+    def show(self, layout, settings):
+        for name in ("viewport_samples", "viewport_pixel"):
+            layout.prop(settings, name)
+
+
 class LIGHTNET_PT_machines(Panel, bpy.types.Panel):
     bl_label = "Machines"
 
@@ -38,7 +46,7 @@ class LIGHTNET_PT_machines(Panel, bpy.types.Panel):
             layout.prop(settings, name)
 
 
-panels = [LIGHTNET_PT_light, LIGHTNET_PT_machines]
+panels = [LIGHTNET_PT_light, LIGHTNET_PT_viewport, LIGHTNET_PT_machines]
 like_eevee = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "DATA_PT_EEVEE_light", "EEVEE_WORLD_PT_surface"}
 
 

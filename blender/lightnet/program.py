@@ -88,3 +88,72 @@ class Run:
             self._process.wait()
         self._reader.join()
         self._process.stderr.close()
+
+
+class Session:
+    """A session that stays, and makes a picture after each edit."""
+
+    def __init__(self, command, folder):
+        self._events, self._said, self._number = queue.SimpleQueue(), [], 0
+        self._process = subprocess.Popen(
+            command, cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            text=True, errors="replace", start_new_session=True,
+        )
+        self._readers = [threading.Thread(target=one, daemon=True) for one in (self._read, self._listen)]
+        for reader in self._readers:
+            reader.start()
+
+    def _read(self):
+        for line in self._process.stdout:
+            try:
+                event = json.loads(line)
+            except ValueError:
+                continue
+            if isinstance(event, dict) and event.get("event") in ("picture", "error"):
+                self._events.put(event)
+
+    def _listen(self):
+        for line in self._process.stderr:
+            self._said = [*self._said[-20:], line.rstrip("\n")]
+
+    def edit(self, **edit):
+        """Makes an edit (see the documents on sessions); what was at work ends."""
+        self._number += 1
+        try:
+            self._process.stdin.write(json.dumps({"id": self._number, **edit}) + "\n")
+            self._process.stdin.flush()
+        except OSError:
+            pass  # it has ended, which ended() says
+
+    def has_news(self):
+        return not self._events.empty() or self.ended()
+
+    def events(self):
+        """What has happened since the last call: pictures, and mistakes."""
+        found = []
+        while not self._events.empty():
+            found.append(self._events.get())
+        return found
+
+    def said(self):
+        """The last lines of its words."""
+        return self._said
+
+    def ended(self):
+        return self._process.poll() is not None
+
+    def end(self):
+        if not self.ended():
+            self._process.send_signal(signal.SIGTERM)
+        try:
+            self._process.wait(patience)
+        except subprocess.TimeoutExpired:
+            os.killpg(self._process.pid, signal.SIGKILL)
+            self._process.wait()
+        for reader in self._readers:
+            reader.join()
+        for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
+            try:
+                stream.close()
+            except OSError:
+                pass  # words that nobody could be given any more

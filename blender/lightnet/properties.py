@@ -32,6 +32,12 @@ class Settings(bpy.types.PropertyGroup):
     layers: bpy.props.BoolProperty(
         name="Layers", description="A pass for what each operator of the graph adds to the picture"
     )
+    viewport_samples: bpy.props.IntProperty(
+        name="Samples", default=64, min=1, max=1 << 20, description="Samples per pixel of the viewport, where it stands still"
+    )
+    viewport_pixel: bpy.props.IntProperty(
+        name="Pixel size", default=2, min=1, max=16, description="One pixel of the picture for so many of the viewport, across"
+    )
     threads: bpy.props.IntProperty(name="Threads", default=0, min=0, description="Of this machine; 0: one per core")
     hosts: bpy.props.StringProperty(
         name="Hosts", description="A hosts file, or addresses with commas between them; empty: this machine alone"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # run.sh SCENE...: compares pictures of scenes with those of Cycles; `run.sh engine` installs the add-on from its zip and tries
-# it. Needs $LIGHTNET. Without Blender it says so, and leaves by 77.
+# it, and `run.sh viewport` does so in a window, on a screen of its own. Needs $LIGHTNET. Without Blender, or a screen, it says
+# so, and leaves by 77.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 command -v blender >/dev/null || { echo "Blender is not installed"; exit 77; }
@@ -10,7 +11,17 @@ export BLENDER_USER_CONFIG=$place/config BLENDER_USER_SCRIPTS=$place/scripts
 export TMPDIR=$place/temporary
 mkdir -p "$BLENDER_USER_CONFIG" "$BLENDER_USER_SCRIPTS/addons" "$TMPDIR"
 script=against_cycles.py
-[ "${1-}" != engine ] || { script=engine_test.py; set -- "$(/usr/bin/python3 "$here/../../blender/zip.py" "$place")"; }
-blender -b --factory-startup --python "$here/$script" -- "$@" >"$place/log" 2>&1 && failed=0 || failed=1
+blender=(blender -b)
+case ${1-} in
+    engine | viewport)
+        script=$1_test.py
+        [ "$1" = engine ] || {
+            command -v xvfb-run >/dev/null || { echo "xvfb-run is not installed"; exit 77; }
+            blender=(xvfb-run -a -s "-screen 0 1280x800x24" blender --window-geometry 0 0 1200 760)
+        }
+        set -- "$(/usr/bin/python3 "$here/../../blender/zip.py" "$place")"
+        ;;
+esac
+"${blender[@]}" --factory-startup --python "$here/$script" -- "$@" >"$place/log" 2>&1 && failed=0 || failed=1
 [ "$failed" = 0 ] && grep 'FIGURE\|PASSED' "$place/log" || cat "$place/log"
 exit "$failed"
