@@ -53,6 +53,7 @@ Kind custom_kind() {
                         .help = "function(q, ask) that answers with a column of numbers or colours"}},
             .mistakes = mistakes_in_function,
             .light = {.paths = always({}), .onward = ""},
+            .reads = reading(ScenePart::geometry | ScenePart::materials | ScenePart::media),
             .make_light = [](const NodeContext& here) { return std::make_unique<Custom>(here); }};
 }
 

@@ -74,6 +74,7 @@ Kind ambient_occlusion_kind() {
                  .least = 0},
             },
         .light = {.paths = always({})},
+        .reads = reading(ScenePart::geometry),
         .make_light = [](const NodeContext& here) { return std::make_unique<AmbientOcclusion>(here); },
     };
 }

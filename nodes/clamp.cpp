@@ -41,6 +41,7 @@ Kind clamp_kind() {
                     .initial = Value{10.0},
                     .least = 0}},
         .light = {.space = true, .onward = ""},
+        .reads = reading(SceneParts()),
         .make_light = [](const NodeContext& here) { return std::make_unique<Clamp>(here); },
     };
 }

@@ -40,6 +40,7 @@ Kind combine_kind() {
                     .initial = Value{Table{}},
                     .per_input = true}},
         .light = {.linear = true, .space = true},
+        .reads = reading(SceneParts()),
         .make_light = [](const NodeContext& here) { return std::make_unique<Combine>(here); },
     };
 }

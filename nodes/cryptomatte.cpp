@@ -62,6 +62,7 @@ Kind cryptomatte_kind() {
                     .most = double(most_ids)}},
         .mistakes = odd_ranks,
         .light = {.facts = true, .ids = true, .paths = always({})},
+        .reads = reading(whole_scene),
         .make_light = [](const NodeContext& here) { return std::make_unique<Cryptomatte>(here); },
     };
 }

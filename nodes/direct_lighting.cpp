@@ -42,7 +42,7 @@ public:
           samples_(static_cast<std::uint32_t>(here.integer("samples"))),
           most_(std::bit_ceil(static_cast<std::uint32_t>(here.integer("most_samples")))),
           error_(static_cast<float>(here.number("error"))),
-          faint_(0.01 / (double(scene_.film().scale) * scene_.film().scale)),
+          faint_(error_ > 0 ? 0.01 / (double(scene_.film().scale) * scene_.film().scale) : 0),
           heuristic_(heuristic_called(here.text("heuristic"))) {}
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -265,6 +265,12 @@ private:
     Heuristic heuristic_;
 };
 
+// Noise is seen on the film alone, so the exposure counts where an error is wanted.
+SceneParts read_by(const Node& node) {
+    const bool has_error = std::get<double>(node.params.at("error").data) > 0;
+    return has_error ? scene_of_light | ScenePart::film : scene_of_light;
+}
+
 }  // namespace
 
 Kind direct_lighting_kind() {
@@ -305,6 +311,7 @@ Kind direct_lighting_kind() {
                  .choices = {"auto", "power", "balance", "lamps", "directions"}},
             },
         .light = {.space = true, .lamps = true, .groups = true, .paths = always({"LD"})},
+        .reads = read_by,
         .make_light = [](const NodeContext& here) { return std::make_unique<DirectLighting>(here); },
     };
 }

@@ -33,6 +33,7 @@ Kind emission_kind() {
             "emitted light: what surfaces shine by themselves; for nodes that gather light, as the renderer sees it "
             "anyhow",
         .light = {.lamps = true, .groups = true, .paths = always({"A"})},
+        .reads = reading(ScenePart::geometry | ScenePart::lamps),
         .make_light = [](const NodeContext& here) { return std::make_unique<SelfEmission>(here); },
     };
 }

@@ -74,6 +74,7 @@ Kind environment_kind() {
                     .least = 1,
                     .most = 65536}},
         .light = {.space = true, .lamps = true, .groups = true, .paths = always({"VD"})},
+        .reads = reading(scene_of_light),
         .make_light = [](const NodeContext& here) { return std::make_unique<SkyLight>(here); },
     };
 }

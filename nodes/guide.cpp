@@ -226,6 +226,7 @@ Kind guide_kind() {
         .params = guide_params(),
         .light = {.paths = always({})},
         .run = {.prepares = true, .rehearses = true, .freezes = "light directions", .keeps = true},
+        .reads = reading(scene_of_light),
         .make_light = [](const NodeContext& here) { return std::make_unique<Guide>(here); },
     };
 }

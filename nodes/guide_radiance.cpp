@@ -30,6 +30,7 @@ Kind guide_radiance_kind() {
                         {
                             .name = "GuideRadiance",
                             .help = "an AOV, no light: the mean radiance that a guide takes to arrive, W·sr⁻¹·m⁻²",
+                            .reads = reading(ScenePart::geometry),
                             .make_light = [](const NodeContext& here) { return std::make_unique<GuideRadiance>(here); },
                         });
 }

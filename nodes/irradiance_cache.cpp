@@ -27,8 +27,7 @@ namespace {
 /// gradients (Ward & Heckbert 1992). Rehearsals find the points, from coarse to fine; all places compute the irradiance
 /// there; then the records are frozen. Where none reaches, the irradiance is computed for the question alone, with a
 /// sixteenth of the rays (the samples of a pixel add up), and not kept. Only what a surface scatters diffusely is
-/// interpolated; for the glossy rest rays are drawn from the BSDF anew each time. The bias is that of the
-/// interpolation: `accuracy` bounds it.
+/// interpolated; for the glossy rest rays are drawn anew each time. The bias is that of interpolation, by `accuracy`.
 class IrradianceCache final : public LightOp {
 public:
     explicit IrradianceCache(const NodeContext& here)
@@ -393,6 +392,7 @@ Kind irradiance_cache_kind() {
         .mistakes = irradiance_cache_mistakes,
         .light = {.groups = true, .onward = "S*D"},
         .run = {.prepares = true, .rehearses = true, .freezes = "irradiance records", .keeps = true},
+        .reads = reading(scene_of_light),
         .make_light = [](const NodeContext& here) { return std::make_unique<IrradianceCache>(here); },
     };
 }

@@ -89,6 +89,7 @@ Kind path_tracing_kind() {
                  .optional = true},
             },
         .light = {.space = true, .lamps = true, .groups = true, .paths = paths_of},
+        .reads = reading(scene_of_light),
         .make_light = [](const NodeContext& here) { return std::make_unique<PathTracing>(here); },
     };
 }

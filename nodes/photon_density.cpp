@@ -44,6 +44,7 @@ Kind photon_density_kind() {
                                         .least = 2,
                                         .most = 65536},
                                        gather_radius("how far away photons are counted")},
+                            .reads = reading(ScenePart::geometry),
                             .make_light = [](const NodeContext& here) { return std::make_unique<PhotonDensity>(here); },
                         });
 }

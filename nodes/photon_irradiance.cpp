@@ -137,6 +137,7 @@ Kind photon_irradiance_kind() {
         .params = photon_irradiance_params(),
         .light = {.converts = true},
         .run = {.prepares = true},
+        .reads = reading(ScenePart::geometry | ScenePart::materials),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonIrradiance>(here); },
     };
 }

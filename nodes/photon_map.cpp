@@ -100,6 +100,7 @@ Kind photon_map_kind() {
         .run = {.prepares = true,
                 .freezes = "photons",
                 .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), Shooting::of(here)); }},
+        .reads = reading(scene_of_light | ScenePart::names),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonMap>(here); },
     };
 }

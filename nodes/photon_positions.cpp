@@ -33,6 +33,7 @@ Kind photon_positions_kind() {
             .name = "PhotonPositions",
             .help = "an AOV, no light: a dot around each photon of a map",
             .params = {dot_size()},
+            .reads = reading(ScenePart::geometry),
             .make_light = [](const NodeContext& here) { return std::make_unique<PhotonPositions>(here); },
         });
 }

@@ -93,6 +93,7 @@ Kind progressive_photon_mapping_kind() {
                   "each sample of a pixel has photons of its own now: 'samples' of the renderer says how many"}},
         .light = {.lamps = true, .groups = true, .paths = paths_of_photons},
         .run = {.prepares = true, .passes = true},
+        .reads = reading(scene_of_light | ScenePart::names),
         .make_light = [](const NodeContext& here) { return std::make_unique<ProgressivePhotonMapping>(here); },
     };
 }

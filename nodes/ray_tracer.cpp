@@ -371,6 +371,7 @@ Kind ray_tracer_kind() {
                  .most = 16},
             },
         .light = {.lamps = true, .groups = true, .paths = always({"LS*E"}), .onward = "S*E"},
+        .reads = reading(scene_of_light | ScenePart::camera),
         .make_renderer = [](const NodeContext& here) { return std::make_unique<RayTracer>(here); },
     };
 }

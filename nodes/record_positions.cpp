@@ -33,6 +33,7 @@ Kind record_positions_kind() {
             .name = "RecordPositions",
             .help = "an AOV, no light: a dot around each record of an irradiance cache",
             .params = {dot_size(". No further than the record itself reaches")},
+            .reads = reading(ScenePart::geometry),
             .make_light = [](const NodeContext& here) { return std::make_unique<RecordPositions>(here); },
         });
 }

@@ -42,6 +42,7 @@ Kind scale_kind() {
                     .least = 0,
                     .count = 3}},
         .light = {.linear = true, .partial = true, .space = true},
+        .reads = reading(SceneParts()),
         .make_light = [](const NodeContext& here) { return std::make_unique<Scale>(here); },
     };
 }

@@ -29,16 +29,16 @@ public:
           named_(!here.text("material").empty() || !here.text("object").empty()) {
         const auto box = here.numbers("box");
         for (std::size_t i = 0; i < std::min(box.size(), box_.size()); ++i) box_[i] = static_cast<float>(box[i]);
-        const SceneData& data = scene_.data();
+        const auto& materials = scene_.all<Material>();
+        const auto& objects = scene_.all<Object>();
         const auto& material = here.text("material");
         const auto& object = here.text("object");
-        for (const auto& shape : data.shapes) {
-            made_of_.push_back(material.empty() || goes_by(data.materials[shape.material].name, material));
+        for (const auto& shape : scene_.all<Shape>()) {
+            made_of_.push_back(material.empty() || goes_by(materials[shape.material].name, material));
             called_.push_back(object.empty() || goes_by(shape.name, object) || goes_by(shape.node_name, object));
         }
-        for (const auto& instance : data.instances)
-            of_object_.push_back(goes_by(data.objects[instance.object].name, object) ||
-                                 goes_by(instance.node_name, object));
+        for (const auto& instance : scene_.all<Instance>())
+            of_object_.push_back(goes_by(objects[instance.object].name, object) || goes_by(instance.node_name, object));
     }
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
@@ -159,6 +159,7 @@ Kind select_kind() {
                     .initial = Value{false}}},
         .mistakes = mistakes,
         .light = {.linear = true, .partial = true, .space = true},
+        .reads = reading(scene_of_light | ScenePart::names),
         .make_light = [](const NodeContext& here) { return std::make_unique<Select>(here); },
     };
 }

@@ -118,6 +118,13 @@ const std::vector<std::pair<const char*, SurfaceFact::Fact>> SurfaceFact::facts{
     {"motion", &SurfaceFact::motion},
     {"albedo", &SurfaceFact::albedo}};
 
+// Motion is asked of all that moves until the next frame.
+SceneParts read_by_fact(const Node& node) {
+    const auto of = node.params.find("of");
+    const bool motion = of == node.params.end() || std::get<std::string>(of->second.data) == "motion";
+    return motion ? whole_scene : scene_of_light | ScenePart::camera | ScenePart::film;
+}
+
 }  // namespace
 
 Kind surface_fact_kind() {
@@ -133,6 +140,7 @@ Kind surface_fact_kind() {
                   "right and upwards until the next frame; albedo: of all lobes, towards the eye",
               .choices = SurfaceFact::names()}},
         .light = {.facts = true, .letters = SurfaceFact::letters, .paths = always({})},
+        .reads = read_by_fact,
         .make_light = [](const NodeContext& here) { return std::make_unique<SurfaceFact>(here); },
     };
 }

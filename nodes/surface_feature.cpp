@@ -68,6 +68,7 @@ Kind surface_feature_kind() {
                         "distance from the eye",
                     .choices = {"albedo", "normal", "depth"}}},
         .light = {.paths = always({})},
+        .reads = reading(ScenePart::camera | ScenePart::geometry | ScenePart::materials | ScenePart::media),
         .make_light = [](const NodeContext& here) { return std::make_unique<SurfaceFeature>(here); },
     };
 }

@@ -120,7 +120,7 @@ std::vector<std::string> paths_of_photons(const Node& node) {
 }
 
 bool may_keep_any(const Scene& scene, PhotonPaths paths) {
-    const auto& materials = scene.data().materials;
+    const auto& materials = scene.all<Material>();
     return paths != PhotonPaths::caustic || !std::all_of(materials.begin(), materials.end(), [](const Material& one) {
                return std::holds_alternative<DiffuseMaterial>(one.model);
            });

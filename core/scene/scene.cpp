@@ -113,76 +113,92 @@ struct Scene::Built {
 Scene::Scene(SceneData data, const SceneOptions& options)
     : built_(std::make_shared<const Built>(std::move(data), options)),
       lights_(built_->lights({})),
-      seen_from_(built_->data.camera),
-      film_(built_->data.film),
-      camera_(seen_from_, film_.width, film_.height),
+      onlooker_{built_->data.camera, true, built_->data.film},
+      camera_(onlooker_.camera, onlooker_.film.width, onlooker_.film.height),
       has_media_(built_->media.any()) {}
 
-Scene::Scene(const Scene& whole, const LampView& lamps)
+Scene::Scene(const Scene& whole, const SceneView& view)
     : built_(whole.built_),
-      lights_(built_->lights({lamps.groups, lamps.apart})),
-      seen_from_(whole.seen_from_),
-      film_(whole.film_),
+      lights_(view.groups == whole.view_.groups && view.apart == whole.view_.apart
+                  ? whole.lights_
+                  : built_->lights({view.groups, view.apart})),
+      view_(view),
+      onlooker_(whole.onlooker_),
       camera_(whole.camera_),
       has_media_(whole.has_media_) {}
 
 Scene::Scene(const Scene& whole, const Onlooker& by, const SceneOptions& options)
     : built_(whole.built_),
       lights_(whole.lights_),
-      seen_from_(by.camera),
-      film_(sized(by.film, options)),
-      camera_(seen_from_, film_.width, film_.height),
+      view_(whole.view_),
+      onlooker_{by.camera, true, sized(by.film, options)},
+      camera_(onlooker_.camera, onlooker_.film.width, onlooker_.film.height),
       has_media_(whole.has_media_) {}
 
 Scene::~Scene() = default;
 
 std::optional<Hit> Scene::intersect(const Ray& ray) const {
+    view_.parts.expect(ScenePart::geometry);
     const auto hit = built_->geometry.intersect(ray);
     if (witness) witness->met(ray, hit);
     return hit;
 }
 
 void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+    view_.parts.expect(ScenePart::geometry);
     built_->geometry.intersect(rays, hits);
     if (witness)
         for (std::size_t i = 0; i < rays.size(); ++i) witness->met(rays[i], hits[i]);
 }
 
 bool Scene::occluded(const Ray& ray) const {
+    view_.parts.expect(ScenePart::geometry);
     const bool hidden = built_->geometry.occluded(ray);
     if (witness) witness->looked(ray, hidden);
     return hidden;
 }
 
 void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
+    view_.parts.expect(ScenePart::geometry);
     built_->geometry.occluded(rays, hidden);
     if (witness)
         for (std::size_t i = 0; i < rays.size(); ++i) witness->looked(rays[i], hidden[i] != 0);
 }
 
 std::optional<Hit> Scene::nearest(Vec3 position, Vec3 normal, float reach) const {
+    view_.parts.expect(ScenePart::geometry);
     return built_->geometry.nearest({built_->data, built_->shading}, {position, normal, reach});
 }
 
 SurfacePoint Scene::surface(const Hit& hit) const {
+    view_.parts.expect(ScenePart::geometry);
     SurfacePoint point;
     built_->shading.find(hit, point);
     return point;
 }
 
 void Scene::add_surface(const Hit& hit, std::vector<SurfacePoint>& to) const {
+    view_.parts.expect(ScenePart::geometry);
     built_->shading.find(hit, to.emplace_back());
 }
 
 Vec2 Scene::texture_coordinates(const SurfacePoint& point) const {
+    view_.parts.expect(ScenePart::geometry);
     return built_->shading.coordinates(point.geometry, point.primitive, point.u, point.v).uv;
 }
 
-void Scene::expect(std::span<const std::optional<Hit>> hits) const { built_->shading.expect(hits); }
+void Scene::expect(std::span<const std::optional<Hit>> hits) const {
+    view_.parts.expect(ScenePart::geometry);
+    built_->shading.expect(hits);
+}
 
-std::span<const ColumnShape> Scene::column_shapes() const { return built_->shading.column_shapes(); }
+std::span<const ColumnShape> Scene::column_shapes() const {
+    view_.parts.expect(ScenePart::geometry | ScenePart::materials);
+    return built_->shading.column_shapes();
+}
 
 Hit Scene::hit(const Query& query) const {
+    view_.parts.expect(ScenePart::geometry);
     const auto& shapes = built_->data.shapes;
     if (query.geometry >= shapes.size() || query.primitive >= pieces_of(shapes[query.geometry].geometry) ||
         (query.instance != Query::no_instance && query.instance >= built_->shading.placements().size()))
@@ -190,82 +206,136 @@ Hit Scene::hit(const Query& query) const {
     return {query.instance, query.geometry, query.primitive, query.u, query.v, 0, query.time};
 }
 
-const SceneData& Scene::data() const { return built_->data; }
+const SceneData& Scene::data() const { return view_.parts.expect(whole_scene), built_->data; }
 
-bool Scene::moves() const { return !built_->data.motion.empty(); }
+template <>
+const std::vector<Shape>& Scene::all() const {
+    view_.parts.expect(ScenePart::geometry | ScenePart::lamps | ScenePart::names);
+    return built_->data.shapes;
+}
+template <>
+const std::vector<Material>& Scene::all() const {
+    view_.parts.expect(ScenePart::materials | ScenePart::names);
+    return built_->data.materials;
+}
+template <>
+const std::vector<Object>& Scene::all() const {
+    view_.parts.expect(ScenePart::geometry | ScenePart::names);
+    return built_->data.objects;
+}
+template <>
+const std::vector<Instance>& Scene::all() const {
+    view_.parts.expect(ScenePart::geometry | ScenePart::names);
+    return built_->data.instances;
+}
+
+bool Scene::moves() const { return view_.parts.expect(ScenePart::geometry), !built_->data.motion.empty(); }
 
 bool Scene::moves(const Hit& hit) const {
+    view_.parts.expect(ScenePart::geometry);
     if (hit.instance != Query::no_instance && !built_->shading.later_placements(hit.instance).empty()) return true;
     return built_->shading.moving(hit.geometry) != nullptr;
 }
 
-std::uint8_t Scene::lobes(const Hit& hit) const { return built_->shading.lobes(hit.geometry); }
+std::uint8_t Scene::lobes(const Hit& hit) const {
+    view_.parts.expect(ScenePart::materials);
+    return built_->shading.lobes(hit.geometry);
+}
 
 Bsdf Scene::bsdf(const SurfacePoint& point) const {
+    view_.parts.expect(ScenePart::materials);
     return point.is_in_space() ? built_->media.bsdf(point) : built_->shading.bsdf(point);
 }
 
 void Scene::add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const {
+    view_.parts.expect(ScenePart::materials);
     if (!has_media_) return built_->shading.add_bsdfs(points, to);
     for (const SurfacePoint& point : points) to.push_back(bsdf(point));
 }
 
 SurfacePoint Scene::point_in_space(Vec3 position, std::uint16_t medium, ShutterTime time) const {
+    view_.parts.expect(ScenePart::media);
     SurfacePoint point = built_->media.point(position, medium);
     point.time = time;
     return point;
 }
 
 Flight Scene::fly(const Ray& ray, Rgb carried, Vec2 numbers) const {
+    view_.parts.expect(ScenePart::media);
     return built_->media.fly(ray, carried, {ray, numbers});
 }
 
 Rgb Scene::transmittance(const Ray& ray, Vec2 numbers) const {
+    view_.parts.expect(ScenePart::media);
     return built_->media.transmittance(ray, {ray, numbers});
 }
 
-Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const { return lights_->emission(point, direction); }
+Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {
+    view_.parts.expect(ScenePart::lamps);
+    return lights_->emission(point, direction);
+}
 
-bool Scene::shines(const Hit& hit) const { return lights_->shines(hit.geometry); }
+bool Scene::shines(const Hit& hit) const { return view_.parts.expect(ScenePart::lamps), lights_->shines(hit.geometry); }
 
-Rgb Scene::environment(const Ray& ray) const { return lights_->environment(ray); }
+Rgb Scene::environment(const Ray& ray) const { return view_.parts.expect(ScenePart::lamps), lights_->environment(ray); }
 
 std::optional<LightSample> Scene::sample_light(const LitPoint& from, float choice, Vec2 u) const {
+    view_.parts.expect(ScenePart::lamps);
     return lights_->sample(from, choice, u);
 }
 
 void Scene::sample_lights(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
                           LightSamples& samples) const {
+    view_.parts.expect(ScenePart::lamps);
     lights_->sample(from, choices, u, samples);
 }
 
-const FlatLamp* Scene::only_flat_lamp() const { return lights_->only_flat_lamp(); }
+const FlatLamp* Scene::only_flat_lamp() const {
+    view_.parts.expect(ScenePart::lamps);
+    return lights_->only_flat_lamp();
+}
 
 float Scene::light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
+    view_.parts.expect(ScenePart::lamps);
     return lights_->pdf(from, direction, on);
 }
 std::optional<LampMet> Scene::lamp_met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
+    view_.parts.expect(ScenePart::lamps);
     return lights_->met(from, direction, on);
 }
-void Scene::light_pdfs(std::span<const LampMet> met, std::span<float> pdfs) const { lights_->pdfs(met, pdfs); }
+void Scene::light_pdfs(std::span<const LampMet> met, std::span<float> pdfs) const {
+    view_.parts.expect(ScenePart::lamps);
+    lights_->pdfs(met, pdfs);
+}
 
-float Scene::environment_pdf(const Ray& ray) const { return lights_->environment_pdf(ray); }
-bool Scene::samples_environment() const { return lights_->samples_environment(); }
+float Scene::environment_pdf(const Ray& ray) const {
+    view_.parts.expect(ScenePart::lamps);
+    return lights_->environment_pdf(ray);
+}
+bool Scene::samples_environment() const { return view_.parts.expect(ScenePart::lamps), lights_->samples_environment(); }
 void Scene::look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const {
+    view_.parts.expect(ScenePart::lamps);
     lights_->look_at_sky(rays, seen);
 }
-bool Scene::has_environment() const { return lights_->has_environment(); }
-std::optional<SeenSun> Scene::sun(Vec3 direction) const { return lights_->sun(direction); }
-bool Scene::has_suns() const { return lights_->has_suns(); }
-bool Scene::has_lamps() const { return !lights_->empty(); }
-bool Scene::has_many_lamps() const { return lights_->many(); }
+bool Scene::has_environment() const { return view_.parts.expect(ScenePart::lamps), lights_->has_environment(); }
+std::optional<SeenSun> Scene::sun(Vec3 direction) const {
+    view_.parts.expect(ScenePart::lamps);
+    return lights_->sun(direction);
+}
+bool Scene::has_suns() const { return view_.parts.expect(ScenePart::lamps), lights_->has_suns(); }
+bool Scene::has_lamps() const { return view_.parts.expect(ScenePart::lamps), !lights_->empty(); }
+bool Scene::has_many_lamps() const { return view_.parts.expect(ScenePart::lamps), lights_->many(); }
 
 std::optional<Emission> Scene::emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time) const {
+    view_.parts.expect(ScenePart::lamps);
     return lights_->emit(choice, position_sample, direction_sample, time);
 }
 
 bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray) || sun(ray.direction); }
-bool Scene::may_meet_lamp(const Ray& ray) const { return lights_->may_meet_lamp(ray); }
+bool Scene::may_meet_lamp(const Ray& ray) const {
+    view_.parts.expect(ScenePart::lamps);
+    return lights_->may_meet_lamp(ray);
+}
 
 Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
     const Vec3 origin = from.origin_towards(lamp.direction);
@@ -273,16 +343,23 @@ Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
                               : ray_between(origin, lamp.position, lamp.direction, from.time);
 }
 
-bool Scene::visible(const SurfacePoint& from, const LightSample& lamp) const { return !occluded(ray_to(from, lamp)); }
+std::size_t Scene::groups() const { return view_.parts.expect(ScenePart::lamps), lights_->groups(); }
+std::uint32_t Scene::group_of(const SurfacePoint& lamp) const {
+    view_.parts.expect(ScenePart::lamps);
+    return lights_->group_of(lamp);
+}
+std::uint32_t Scene::environment_group() const {
+    view_.parts.expect(ScenePart::lamps);
+    return lights_->environment_group();
+}
 
-std::size_t Scene::groups() const { return lights_->groups(); }
-std::uint32_t Scene::group_of(const SurfacePoint& lamp) const { return lights_->group_of(lamp); }
-std::uint32_t Scene::environment_group() const { return lights_->environment_group(); }
+Box Scene::bounds() const { return view_.parts.expect(ScenePart::geometry), built_->box; }
+float Scene::radius() const { return view_.parts.expect(ScenePart::geometry), length(built_->box.size()) / 2; }
 
-Box Scene::bounds() const { return built_->box; }
-float Scene::radius() const { return length(built_->box.size()) / 2; }
-
-SceneSize Scene::size() const { return size_of(built_->data, built_->geometry, *lights_); }
+SceneSize Scene::size() const {
+    view_.parts.expect(whole_scene);
+    return size_of(built_->data, built_->geometry, *lights_);
+}
 
 std::uint64_t Scene::rays_of_this_thread() { return Geometry::rays_of_this_thread(); }
 

@@ -13,6 +13,7 @@
 #include "core/base/lamp_groups.hpp"
 #include "core/base/math/box.hpp"
 #include "core/base/query.hpp"
+#include "core/base/scene_parts.hpp"
 #include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/camera/camera.hpp"
@@ -48,20 +49,24 @@ struct SceneSize {
     std::size_t light_bytes = 0;
 };
 
-/// Which lamps of a scene are looked for, and whether their groups are told apart.
-struct LampView {
+/// What of a scene somebody sees: which lamps are looked for, whether their groups are told apart, and which parts may
+/// be read at all.
+struct SceneView {
     GroupSet groups = all_groups;
     bool apart = false;
-    friend auto operator<=>(const LampView&, const LampView&) = default;
+    SceneParts parts = whole_scene;
+    friend auto operator<=>(const SceneView&, const SceneView&) = default;
 };
 
-/// Built once per process and shared by all its places: every member may be called from any thread.
+/// Built once per process and shared by all its places: every member may be called from any thread. What reads a part
+/// that its view leaves out throws Error.
+// DECISIONS: undeclared-reads-end-a-run
 class Scene {
 public:
     explicit Scene(SceneData data, const SceneOptions& options = {});
-    /// A scene as if there were no other lamps than these. It shares all but what finds them, and what was a lamp is in
-    /// the way of light as before.
-    Scene(const Scene& whole, const LampView& lamps);
+    /// A scene as if there were no other lamps than these, and nothing to be read but those parts. It shares all but
+    /// what finds other lamps than `whole` does, and what was a lamp is in the way of light as before.
+    Scene(const Scene& whole, const SceneView& view);
     /// A scene as another looks at it. It shares all but the camera.
     Scene(const Scene& whole, const Onlooker& by, const SceneOptions& options);
     ~Scene();
@@ -105,15 +110,18 @@ public:
     bool moves(const Hit& hit) const;
 
     /// Is there any medium? Where there is none, nobody needs to ask what follows.
-    bool has_media() const { return has_media_; }
+    bool has_media() const { return view_.parts.expect(ScenePart::media), has_media_; }
     /// What becomes of a path along a ray until ray.far, which has `carried` so much so far.
     Flight fly(const Ray& ray, Rgb carried, Vec2 numbers) const;
     /// What is left of light along a ray until ray.far. `numbers`: see FlightNumbers.
     Rgb transmittance(const Ray& ray, Vec2 numbers) const;
 
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone, and who looks is
-    /// who looked then.
+    /// who looked then. All parts must be in view.
     const SceneData& data() const;
+    /// One of its lists: of shapes, materials, objects or instances.
+    template <class T>
+    const std::vector<T>& all() const;
     /// By shape: how its points are shaded many at once. What is hit in an instance is not.
     std::span<const ColumnShape> column_shapes() const;
     /// Bsdf::lobes() all over the surface that was hit; 0: they are not the same everywhere, or it has none.
@@ -167,8 +175,6 @@ public:
     bool may_meet_lamp(const Ray& ray) const;
     /// The ray on which nothing may be if the surface point is to see a light.
     Ray ray_to(const SurfacePoint& from, const LightSample& lamp) const;
-    /// Is nothing between the surface point and a light?
-    bool visible(const SurfacePoint& from, const LightSample& lamp) const;
 
     /// How many groups of lamps are told apart, 1 or more: a light that is found says of which it is, by index.
     std::size_t groups() const;
@@ -177,10 +183,10 @@ public:
     /// The group of all that comes from infinity without a direction of its own.
     std::uint32_t environment_group() const;
 
-    const Camera& camera() const { return camera_; }
+    const Camera& camera() const { return view_.parts.expect(ScenePart::camera), camera_; }
     /// What it was made of.
-    const CameraData& seen_from() const { return seen_from_; }
-    const FilmData& film() const { return film_; }
+    const CameraData& seen_from() const { return view_.parts.expect(ScenePart::camera), onlooker_.camera; }
+    const FilmData& film() const { return view_.parts.expect(ScenePart::film), onlooker_.film; }
     /// The box around everything that rays can meet.
     Box bounds() const;
     /// Radius of the sphere around everything, metres.
@@ -194,8 +200,8 @@ private:
     struct Built;
     std::shared_ptr<const Built> built_;
     std::shared_ptr<const Lights> lights_;
-    CameraData seen_from_;
-    FilmData film_;
+    SceneView view_;
+    Onlooker onlooker_;
     Camera camera_;
     bool has_media_ = false;
 };

@@ -57,6 +57,7 @@ Kind fog_kind() {
                         .initial = Value{500.0},
                         .least = 0.001}},
             .light = {.linear = true, .partial = true},
+            .reads = lightnet::reading(lightnet::ScenePart::geometry),
             .make_light = [](const NodeContext& here) { return std::make_unique<Fog>(here); }};
 }
 

@@ -60,6 +60,7 @@ Kind marble_kind() {
          .most = 1e9}};
     kind.light.linear = true;
     kind.light.partial = true;
+    kind.reads = reading(ScenePart::geometry);
     kind.make_light = [](const NodeContext& here) { return std::make_unique<Marble>(here); };
     return kind;
 }

@@ -30,6 +30,7 @@ Kind dim_kind() {
             .inputs = {1, 1},
             .params = {{.name = "strength", .help = "the part", .initial = Value{0.5}, .least = 0}},
             .light = {.linear = true},
+            .reads = reading(SceneParts()),
             .make_light = [](const NodeContext& here) { return std::make_unique<Dim>(here); }};
 }
 

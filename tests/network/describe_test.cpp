@@ -22,6 +22,7 @@ TEST(Describe, TellsAllOfAParam) {
               "Ambient: light from everywhere\n"
               "gives: light\n"
               "inputs: none\n"
+              "reads of the scene: everything\n"
               "layouts: replicated, sharded\n"
               "parameters:\n"
               "  rays   integer, in samples, default 4, 1 … 64\n"
@@ -32,6 +33,14 @@ TEST(Describe, TellsAllOfAParam) {
               "         which light\n"
               "  soft   flag, default false\n"
               "         without edges\n");
+}
+
+TEST(Describe, TellsWhatIsReadOfTheScene) {
+    Kind kind = test::ambient();
+    kind.reads = reading(ScenePart::lamps | ScenePart::geometry);
+    EXPECT_NE(describe(kind).find("reads of the scene: geometry, lamps\n"), std::string::npos);
+    kind.reads = reading({});
+    EXPECT_NE(describe(kind).find("reads of the scene: nothing\n"), std::string::npos);
 }
 
 TEST(Describe, TellsOfNodesThatAreTaken) {

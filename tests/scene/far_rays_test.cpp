@@ -271,7 +271,7 @@ TEST(FarRays, ReachEveryPointOfALamp) {
                 const auto sample = scene.sample_light(LitPoint(point.position), samples.next(), samples.next_2d());
                 if (!sample) continue;
                 ++found;
-                hidden += !scene.visible(point, *sample);
+                hidden += scene.occluded(scene.ray_to(point, *sample));
             }
             EXPECT_GT(found, 300u) << "at " << distance << ", lamp " << &lamp - lamps.data();
             EXPECT_EQ(hidden, 0u) << "of " << found << " at " << distance << ", lamp " << &lamp - lamps.data();
@@ -329,7 +329,7 @@ Seen look_at(Vec3 at) {
             const auto light = scene.sample_light(LitPoint(point.position), choice, u);
             const bool behind =
                 light && (dot(light->direction, point.normal) > 0) == (dot(ray.direction, point.normal) > 0);
-            if (!light || behind || !scene.visible(point, *light)) continue;
+            if (!light || behind || scene.occluded(scene.ray_to(point, *light))) continue;
             const double value =
                 double{light->radiance.g} * std::fabs(dot(light->direction, point.normal)) / light->pdf;
             seen.mean += value / (64 * 64 * samples_of_pixel);

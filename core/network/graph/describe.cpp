@@ -47,12 +47,11 @@ std::string default_text(const Param& param) {
     return param.optional ? "optional" : "must be given";
 }
 
-// What a node with the defaults of its kind counts.
-std::string default_paths(const Kind& kind) {
+Node node_with_defaults(const Kind& kind) {
     Node node{"", kind.name, {}, {}, {}};
     for (const auto& param : kind.params)
         if (param.initial) node.params.emplace(param.name, *param.initial);
-    return paths_text(node, kind);
+    return node;
 }
 
 std::string facts_text(const Param& param) {
@@ -90,7 +89,9 @@ std::string describe(const Kind& kind) {
     text += "gives: " + std::string(to_string(kind.role)) + "\n";
     text += "inputs: " + inputs_text(kind) + "\n";
     if (kind.light.linear) text += "linear: the layers of its inputs pass through\n";
-    if (const auto paths = default_paths(kind); !paths.empty()) text += "light paths: " + paths + "\n";
+    const Node node = node_with_defaults(kind);
+    if (const auto paths = paths_text(node, kind); !paths.empty()) text += "light paths: " + paths + "\n";
+    if (kind.role != Role::scene) text += "reads of the scene: " + to_string(reads_of(kind, node)) + "\n";
     if (kind.run.landmarks) text += "layouts: replicated, sharded\n";
     if (kind.params.empty()) return text + "parameters: none\n";
     text += "parameters:\n";

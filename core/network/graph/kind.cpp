@@ -217,6 +217,12 @@ void add_lamp_params(Kind& kind) {
 
 }  // namespace
 
+std::function<SceneParts(const Node&)> reading(SceneParts parts) {
+    return [parts](const Node&) { return parts; };
+}
+
+SceneParts reads_of(const Kind& kind, const Node& node) { return kind.reads ? kind.reads(node) : whole_scene; }
+
 std::function<std::vector<std::string>(const Node&)> always(std::vector<std::string> paths) {
     return [paths = std::move(paths)](const Node&) { return paths; };
 }

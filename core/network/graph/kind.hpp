@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/math/vec.hpp"
+#include "core/base/scene_parts.hpp"
 #include "core/network/graph/value.hpp"
 
 namespace lightnet {
@@ -112,6 +113,9 @@ struct RunTraits {
     bool reproducible = true;  // false: draws random numbers that nobody seeds
 };
 
+/// All nodes of a kind read these parts of the scene: for Kind::reads.
+std::function<SceneParts(const Node&)> reading(SceneParts parts);
+
 /// One kind of node: its schema, what it does with light, what it asks of a run, and how a node is made.
 struct Kind {
     std::string name;  // "DirectLighting"
@@ -126,9 +130,15 @@ struct Kind {
     std::function<std::vector<std::string>(const Node&, const SceneData* scene)> mistakes = {};
     LightTraits light = {};
     RunTraits run = {};
+    /// What a node (defaults filled in) may read of the scene: of the rest it sees nothing. Results of earlier runs
+    /// serve again where all that was read is as it was. None: all of it.
+    std::function<SceneParts(const Node&)> reads = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};
 };
+
+/// What a node of the kind may read of the scene.
+SceneParts reads_of(const Kind& kind, const Node& node);
 
 /// All kinds that a program knows, in order of name. Given by main; nothing registers itself. The kind Scene, which
 /// is data and no node that anybody makes, is always among them.

@@ -180,6 +180,7 @@ Kind kind_of(std::string name, const Wrapping& wrapping) {
     kind.run.whole_calls = true;
     kind.run.reproducible = wrapping.reproducible;
     kind.run.locks = !wrapping.alone.empty();
+    kind.reads = reading(wrapping.reads);
     return kind;
 }
 

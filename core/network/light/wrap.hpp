@@ -84,8 +84,9 @@ struct Wrapping {
     std::string help;  // what it does, one line
     InputCount inputs = {};
     std::vector<Param> params = {};
-    bool reproducible = true;    // false: it draws random numbers that can't be seeded; the run says so
-    std::size_t at_once = 2048;  // instances that a call may have waiting at a time
+    SceneParts reads = whole_scene;  // of the scene: see Kind::reads
+    bool reproducible = true;        // false: it draws random numbers that can't be seeded; the run says so
+    std::size_t at_once = 2048;      // instances that a call may have waiting at a time
     /// Of all calls of a process whose kinds name the same here, one at a time goes on: for libraries that change
     /// global variables. Such a class asks no inputs. Empty: calls don't disturb each other.
     std::string alone = {};

@@ -40,13 +40,18 @@ auto made(const Network& network, std::size_t node, Inputs inputs, const NodeSer
 std::vector<std::shared_ptr<const Scene>> scenes_of(const Graph& graph, const Registry& registry,
                                                     const std::shared_ptr<const Scene>& scene) {
     const auto groups = lamp_groups(graph, registry);
-    std::map<LampView, std::shared_ptr<const Scene>> made{{LampView{}, scene}};
+    std::map<SceneView, std::shared_ptr<const Scene>> made{{SceneView{}, scene}};
+    const auto made_as = [&](const Scene& whole, const SceneView& view) {
+        auto& seen = made[view];
+        if (!seen) seen = std::make_shared<const Scene>(whole, view);
+        return seen;
+    };
     std::vector<std::shared_ptr<const Scene>> scenes;
     for (const auto& node : graph.nodes) {
-        const LampView view{groups_wanted(node, groups), !groups.empty() && asks_for_groups(node)};
-        auto& seen = made[view];
-        if (!seen) seen = std::make_shared<const Scene>(*scene, view);
-        scenes.push_back(seen);
+        SceneView view{groups_wanted(node, groups), !groups.empty() && asks_for_groups(node)};
+        const auto lit = made_as(*scene, view);  // shared by all who look for these lamps
+        view.parts = reads_of(*registry.find(node.kind), node);
+        scenes.push_back(made_as(*lit, view));
     }
     return scenes;
 }

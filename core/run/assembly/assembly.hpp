@@ -32,7 +32,8 @@
 
 namespace lightnet {
 
-/// Per node, the scene as it sees it: with the lamps that it looks for, their groups apart where it keeps them so.
+/// Per node, the scene as it sees it: with the lamps that it looks for, their groups apart where it keeps them so, and
+/// with the parts that its kind says it reads.
 std::vector<std::shared_ptr<const Scene>> scenes_of(const Graph& graph, const Registry& registry,
                                                     const std::shared_ptr<const Scene>& scene);
 

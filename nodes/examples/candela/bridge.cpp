@@ -131,7 +131,7 @@ private:
 
 std::vector<Kind> candela_kinds() {
     using Around = CandelaWorld;
-    return {
+    std::vector<Kind> kinds{
         wrap<candela::DirectGlow>(
             "CandelaDirect", {.help = "wrapped example: light straight from lamps, on matt surfaces"},
             with(&Around::world, &Around::world, &Around::dice, count("rays", "points on lamps per question", 1))),
@@ -149,6 +149,8 @@ std::vector<Kind> candela_kinds() {
                            {.help = "wrapped example: follows one ray at a time, through mirrors", .inputs = {1, 1}},
                            with(&Around::world, &Around::input, count("mirrors", "in a row that are followed", 8))),
     };
+    for (Kind& kind : kinds) kind.reads = reading(scene_of_light | ScenePart::camera);
+    return kinds;
 }
 
 }  // namespace lightnet
