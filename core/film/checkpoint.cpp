@@ -26,7 +26,7 @@ constexpr std::string_view magic = "lightnet checkpoint 5\n";
 constexpr JsonLimits as_large_as_the_film{.bytes = std::size_t{1} << 30, .values = 100'000'000, .depth = 8};
 
 template <class T>
-std::string_view bytes_of(std::span<const T> values) {
+std::string_view view_of(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
     return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
@@ -127,6 +127,23 @@ Checkpoint from_bytes(std::string_view bytes) {
     }
 }
 
+// take(pieces), one behind the other, from where they lie: a large film is not copied again.
+template <class Take>
+void in_pieces(const Checkpoint& checkpoint, const Take& take) {
+    const auto& film = checkpoint.film;
+    const std::string text = text_of(checkpoint);
+    const std::uint64_t size = text.size();
+    std::vector<std::string_view> pieces{magic, view_of(std::span(&size, 1)), text, view_of(std::span(film.sums)),
+                                         view_of(std::span(film.spreads))};
+    for (const auto& part : film.parts)
+        for (const auto& [block, sum] : part.waiting) pieces.push_back(view_of(std::span(sum.pixels)));
+    Hasher hasher;
+    for (const auto piece : pieces) hasher.add(std::as_bytes(std::span(piece)));
+    const Hash hash = hasher.finish();
+    pieces.push_back(view_of(std::span<const unsigned char>(hash.bytes)));
+    take(pieces);
+}
+
 }  // namespace
 
 std::filesystem::path checkpoint_beside(const std::filesystem::path& picture) {
@@ -134,19 +151,22 @@ std::filesystem::path checkpoint_beside(const std::filesystem::path& picture) {
 }
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-    const auto& film = checkpoint.film;
-    const std::string text = text_of(checkpoint);
-    const std::uint64_t size = text.size();
-    // From where it lies: a large film is not copied again.
-    std::vector<std::string_view> pieces{magic, bytes_of(std::span(&size, 1)), text, bytes_of(std::span(film.sums)),
-                                         bytes_of(std::span(film.spreads))};
-    for (const auto& part : film.parts)
-        for (const auto& [block, sum] : part.waiting) pieces.push_back(bytes_of(std::span(sum.pixels)));
-    Hasher hasher;
-    for (const auto piece : pieces) hasher.add(std::as_bytes(std::span(piece)));
-    const Hash hash = hasher.finish();
-    pieces.push_back(bytes_of(std::span<const unsigned char>(hash.bytes)));
-    write_file(path, pieces);
+    in_pieces(checkpoint, [&](const std::vector<std::string_view>& pieces) { write_file(path, pieces); });
+}
+
+Bytes checkpoint_bytes(const Checkpoint& checkpoint) {
+    std::vector<std::byte> all;
+    in_pieces(checkpoint, [&](const std::vector<std::string_view>& pieces) {
+        for (const auto piece : pieces) {
+            const auto bytes = std::as_bytes(std::span(piece));
+            all.insert(all.end(), bytes.begin(), bytes.end());
+        }
+    });
+    return std::make_shared<const std::vector<std::byte>>(std::move(all));
+}
+
+Checkpoint checkpoint_in(std::span<const std::byte> bytes) {
+    return from_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path) {

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "core/base/bytes.hpp"
 #include "core/film/film.hpp"
 
 namespace lightnet {
@@ -28,6 +30,11 @@ std::filesystem::path checkpoint_beside(const std::filesystem::path& picture);
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 /// None: there is no such file. Throws Error when it can't be read, is none, or is damaged.
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path);
+
+/// The content of such a file.
+Bytes checkpoint_bytes(const Checkpoint& checkpoint);
+/// Throws Error when they are none, or are damaged.
+Checkpoint checkpoint_in(std::span<const std::byte> bytes);
 
 /// What differs, in words; empty when nothing does.
 std::string differences(const std::map<std::string, std::string>& theirs,

@@ -2,9 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+
 #include "core/network/graph/check.hpp"
 #include "core/network/light/mapped.hpp"
 #include "core/network/light/rehearsal.hpp"
+#include "core/run/assembly/job.hpp"
 #include "core/run/serial/serial.hpp"
 #include "tests/support/learner.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -172,6 +175,66 @@ TEST(Recipes, DependOnWhatTheGraphChangesAboutTheScene) {
     EXPECT_NE(changed("material", Value{std::string("clay")}), plain);
     EXPECT_NE(changed("groups", Value{Table{{}, {{"key", Value{std::string("spot")}}}}}), plain);
     EXPECT_EQ(changed("camera", Value{Table{{}, {{"fov", Value{30.0}}}}}), plain) << "who looks changes nothing";
+}
+
+/// A job whose picture is lit by photons, of a scene that stays in memory.
+class PhotonJob {
+public:
+    PhotonJob() {
+        Graph graph{"test.lua", {}};
+        graph.nodes = {
+            node("scene", "Scene", {Value{std::string("none.pbrt")}}),
+            node("photons", "PhotonMap", {}, {{"photons", Value{2000.0}}, {"paths", Value{std::string("all")}}}),
+            node("image", "RayTracer", {Value{NodeRef{"photons"}}},
+                 {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{4.0}, Value{4.0}}, {}}}}}),
+        };
+        job_.graph = check(graph, registry_);
+        job_.isa = "avx2";
+        job_.width = job_.height = 4;
+    }
+    Job& job() { return job_; }
+    // How many results are kept anew when the nodes prepare for this scene.
+    std::size_t prepared_anew(const SceneData& scene) {
+        LoadedScene loaded{scene};
+        const MadeFrom made = made_from(job_, registry_, loaded);
+        const auto network = build_network(job_, registry_, std::move(loaded));
+        const std::size_t before = cache_.results.size();
+        SerialRun(*network).prepare(made, &cache_);
+        return cache_.results.size() - before;
+    }
+
+private:
+    Registry registry_ = test::with_learner();
+    Job job_;
+    MemoryCache cache_;
+};
+
+TEST(Recipes, LetPhotonsServeUnderAnotherCameraExposureAndFile) {
+    PhotonJob photons;
+    SceneData scene = test::furnace(0.5f, 1);
+    ASSERT_GT(photons.prepared_anew(scene), 0u);
+    scene.camera.to_world.m[0][3] += 0.25;
+    scene.film.scale = 2;
+    photons.job().scene = "another.pbrt";
+    EXPECT_EQ(photons.prepared_anew(scene), 0u);
+    photons.job().width = 8;
+    EXPECT_EQ(photons.prepared_anew(scene), 0u) << "the picture is larger";
+}
+
+TEST(Recipes, HavePhotonsShotAnewWhereLightGoesOtherWays) {
+    PhotonJob photons;
+    const SceneData scene = test::furnace(0.5f, 1);
+    ASSERT_GT(photons.prepared_anew(scene), 0u);
+    const auto anew = [&](const std::function<void(SceneData&)>& change) {
+        SceneData other = scene;
+        change(other);
+        return photons.prepared_anew(other);
+    };
+    EXPECT_GT(anew([](SceneData& other) { other.textures[0].scale.r = 0.25f; }), 0u);
+    EXPECT_GT(anew([](SceneData& other) { other.lights.push_back(PointLight{{0, 0, 0}, {1, 1, 1}}); }), 0u);
+    EXPECT_GT(anew([](SceneData& other) { other.shapes.push_back(other.shapes.front()); }), 0u);
+    photons.job().seed = 7;
+    EXPECT_GT(photons.prepared_anew(scene), 0u);
 }
 
 TEST(SerialRun, PreparesOnceAndTakesTheRestFromTheCache) {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
+
+#include "core/base/error.hpp"
 
 namespace lightnet::identity_test {
 namespace {
@@ -250,6 +253,88 @@ TEST(Identity, IsTheSameForAnotherViewOfTheSameRoom) {
     scene.shapes[0].where = {"elsewhere.pbrt", 9};
     std::get<ImageTexture>(scene.textures[1].pattern).image = picture(0.5f);  // the same, read again
     EXPECT_EQ(identity_of(scene), identity_of(room()));
+}
+
+// Parts of the tree that differ from those of the room as it was.
+SceneParts changed_by(const std::function<void(SceneData&)>& change) {
+    SceneData scene = room();
+    change(scene);
+    const SceneTree before = tree_of(room()), after = tree_of(scene);
+    SceneParts changed;
+    for (const auto& [part, hash] : after.parts)
+        if (hash != before.parts.at(part)) changed |= part;
+    return changed;
+}
+
+TEST(SceneTree, IsAnotherWheneverAnyNumberThatLightMeetsIs) {
+    std::map<Hash, std::size_t> seen{{tree_of(room()).of(scene_of_light), 0}};
+    for (std::size_t changes = 0;; ++changes) {
+        SceneData scene = room();
+        Change change(changes);
+        visit_members(scene, [&](auto&... members) { (change(members), ...); });
+        if (!change.done()) break;
+        const auto [other, added] = seen.emplace(tree_of(scene).of(scene_of_light), changes);
+        EXPECT_TRUE(added) << "change " << changes << " looks like change " << other->second << " or like none";
+    }
+}
+
+TEST(SceneTree, TellsLampsFromWhatTheyShineOn) {
+    const SceneParts lamps = ScenePart::lamps;
+    EXPECT_EQ(changed_by([](SceneData& scene) { std::get<PointLight>(scene.lights[0]).position.x = 7; }), lamps);
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.shapes[0].emission->radiance.r = 7; }), lamps);
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.environments[0].radiance.r = 7; }), lamps);
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.environment_group = 1; }), lamps);
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.motion.lights.clear(); }), lamps);
+}
+
+TEST(SceneTree, HasWhatHangsOnSurfacesChangeWithThem) {
+    const SceneParts all = scene_of_light;
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.instances[0].to_world.m[0][3] = 7; }),
+              ScenePart::geometry | SceneParts(ScenePart::lamps) | ScenePart::media);
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.materials[0].normal_scale = 7; }), all);
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.textures[0].scale.r = 7; }), all);
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.around = 0; }), SceneParts(ScenePart::media));
+}
+
+TEST(SceneTree, KnowsNamesAndGroupsOfLamps) {
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.materials[0].name = "another"; }), SceneParts(ScenePart::names));
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.shapes[0].name = "another"; }), SceneParts(ScenePart::names));
+    EXPECT_EQ(changed_by([](SceneData& scene) {
+                  scene.groups = {"key", "rest"};
+              }),
+              ScenePart::lamps | ScenePart::names);
+}
+
+TEST(SceneTree, HasABranchForEachGroupOfLamps) {
+    SceneData scene = room();
+    scene.groups = {"key", "fill", "rest"};
+    scene.environment_group = 2;
+    std::get<SpotLight>(scene.lights[1]).label.group = 1;
+    const SceneTree before = tree_of(scene);
+    std::get<SpotLight>(scene.lights[1]).position.x = 7;
+    const SceneTree after = tree_of(scene);
+    ASSERT_EQ(after.lamps.size(), 3u);
+    EXPECT_EQ(after.lamps[0], before.lamps[0]);
+    EXPECT_NE(after.lamps[1], before.lamps[1]);
+    EXPECT_EQ(after.lamps[2], before.lamps[2]);
+}
+
+TEST(SceneTree, KnowsCameraAndFilmWhenItIsTold) {
+    SceneTree tree = tree_of(room());
+    EXPECT_THROW(tree.of(ScenePart::camera), Error);
+    CameraData camera;
+    FilmData film;
+    tree.look_by(camera, film);
+    SceneTree other = tree;
+    film.scale = 2;
+    other.look_by(camera, film);
+    EXPECT_EQ(other.of(ScenePart::camera), tree.of(ScenePart::camera));
+    EXPECT_NE(other.of(ScenePart::film), tree.of(ScenePart::film));
+    camera.later = {camera};
+    camera.later.front().fov = 7;
+    other.look_by(camera, {});
+    EXPECT_NE(other.of(ScenePart::camera), tree.of(ScenePart::camera));
+    EXPECT_EQ(other.of(scene_of_light), tree.of(scene_of_light));
 }
 
 }  // namespace

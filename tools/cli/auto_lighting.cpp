@@ -64,6 +64,7 @@ RunningOptions running_of_trial(const RunningOptions& whole, const TrialSize& tr
     own.tuning.cache = "none";  // what earlier runs have kept would make preparing seem to be free
     own.tuning.verify = 0;
     own.forget = true;
+    own.memo = false;
     own.progress = ProgressMode::none;
     own.picture.samples = trial.samples;
     own.picture.size = trial.size;

@@ -57,6 +57,7 @@ RunCosts rehearsed(const RunningOptions& running, const Launcher& launcher, cons
     small.progress = ProgressMode::none;
     small.threads = std::max(2u, usable_cores());
     small.forget = true;
+    small.memo = false;
     small.picture.output = folder.path() + "/rehearsal.exr";
     small.picture.size = small_size(loaded.graph, launcher.registry);
     small.picture.samples = rehearsed_samples;

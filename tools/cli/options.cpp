@@ -261,12 +261,17 @@ void add_running(CLI::App& verb, RunningOptions& running) {
                   "samples that it lacks");
     verb.add_flag("--forget", running.forget,
                   "leave no checkpoint beside a finished picture, so that no samples can be added to it");
+    verb.add_flag("--memo", running.memo,
+                  "keep what is rendered in the cache, and take from there what earlier runs with --memo have rendered "
+                  "of the same: after a change of gains, exposure or files nothing is rendered, and more samples are "
+                  "added to those that are there");
     add_troubles(verb, running.troubles);
     add_tuning(verb, running.tuning);
 }
 
 std::optional<std::string> settle(RunningOptions& running) {
     running.picture.alpha = running.png.alpha;
+    if (running.memo && running.tuning.cache == "none") return "--memo keeps films in the cache, and --cache is 'none'";
     const bool safe = running.insecure || !running.allow.empty() || running.slurm ||
                       !running.ssh.empty();  // which have keys by themselves
     if (!running.listen.empty() && !safe && !stays_on_this_machine(running.listen))

@@ -54,7 +54,7 @@ void LiveExplainer::begin() {
 }
 
 // Sectors are for many hosts; one thread has no use for them.
-void LiveExplainer::share(std::shared_ptr<const Network> network, std::string made_from, float scale) {
+void LiveExplainer::share(std::shared_ptr<const Network> network, MadeFrom made_from, float scale) {
     if (!shards_in(network->graph).empty()) return;
     const std::lock_guard lock(mutex_);
     shared_ = PixelRecount::Source{std::move(network), format_, std::move(made_from), scale};
@@ -146,7 +146,8 @@ PixelRecount::Source LiveExplainer::source() const {
     LoadedScene scene = load_scene(request.graph, registry_, files, request.scene);
     const float scale = scene.data.film.scale;
     const Job job = make_job(request, registry_, format_, files);
-    return {build_network(job, registry_, std::move(scene)), format_, made_from(job), scale};
+    auto made = made_from_if_prepared(job, registry_, scene);
+    return {build_network(job, registry_, std::move(scene)), format_, std::move(made), scale};
 }
 
 }  // namespace lightnet

@@ -41,7 +41,7 @@ public:
     /// All that nodes prepare is there: from now on, wishes are heard. Any thread, as the next two.
     void begin();
     /// Places of this process have that; before begin().
-    void share(std::shared_ptr<const Network> network, std::string made_from, float scale);
+    void share(std::shared_ptr<const Network> network, MadeFrom made_from, float scale);
     /// `reply` is called once, by this thread or the explainer's own.
     void explain(const PixelWish& wish, Reply reply);
 

@@ -197,8 +197,9 @@ PixelAccount account_for(const Picture& picture, const PastRun& past, std::uint3
     LoadedScene scene = load_scene(past.graph, registry, files, request.scene);
     const float scale = scene.data.film.scale;
     const Job job = make_job(request, registry, format, files);
+    const auto made = made_from_if_prepared(job, registry, scene);
     const auto network = build_network(job, registry, std::move(scene));
-    PixelRecount recount({network, format, made_from(job), scale}, cache_of(*network));
+    PixelRecount recount({network, format, made, scale}, cache_of(*network));
     PixelAccount account = recount.account(x, y, samples);
     account.equal = same_bits(account.pixel.layers, picture.layers, index) &&
                     same_bits(account.pixel.shown, picture.shown, index) && same_ids(account.pixel, picture, index);

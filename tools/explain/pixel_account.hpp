@@ -41,8 +41,8 @@ public:
     struct Source {
         std::shared_ptr<const Network> network;
         FilmFormat format;
-        std::string made_from;  // see made_from() of a job
-        float scale = 1;        // what the film makes of radiance
+        MadeFrom made_from;
+        float scale = 1;  // what the film makes of radiance
     };
     /// Has nodes prepare, which takes as long as in a run, where the results are not in `cache` (null: nowhere).
     /// `pause` is called often, and may throw to end the work.

@@ -7,6 +7,7 @@
 #include "core/base/build_info.hpp"
 #include "core/base/hash.hpp"
 #include "core/network/graph/layout.hpp"
+#include "core/network/graph/plan.hpp"
 #include "core/run/assembly/fingerprint.hpp"
 
 namespace lightnet {
@@ -45,6 +46,21 @@ std::map<std::string, std::string> picture_recipe(const Job& job, const Registry
             {"tile", std::to_string(tile)},
             {"build", build},
             {"arithmetic", std::to_string(fingerprint(job.isa))}};
+}
+
+std::map<std::string, std::string> film_recipe(const Job& job, const Registry& registry, const FilmFormat& format,
+                                               std::uint32_t tile, const MadeFrom& made_from) {
+    auto recipe = picture_recipe(job, registry, format, tile);
+    std::string colours;
+    for (std::size_t i = 0; i < format.colours(); ++i) colours += format.name_of(i) + '\n';
+    recipe["colours"] = to_hex(content_hash(colours));
+    recipe["run"] = to_hex(content_hash(made_from.run));
+    if (!made_from.scene) return recipe;
+    SceneParts read = all_read(made_from, used_nodes(job.graph, renderer_of(job.graph, registry)));
+    if (format.adaptive()) read |= ScenePart::film;  // noise counts as it is seen
+    recipe["graph"] = to_hex(content_hash(made_from.light));
+    recipe["scene"] = to_hex(made_from.scene->of(read));
+    return recipe;
 }
 
 }  // namespace lightnet

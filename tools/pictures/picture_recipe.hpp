@@ -16,4 +16,9 @@ namespace lightnet {
 std::map<std::string, std::string> picture_recipe(const Job& job, const Registry& registry, const FilmFormat& format,
                                                   std::uint32_t tile);
 
+/// All that the film of a job depends on, beside the number of its samples: the parts of the scene that its nodes read,
+/// wherever they come from, and nothing of exposure, gains, files or what is done with the film afterwards.
+std::map<std::string, std::string> film_recipe(const Job& job, const Registry& registry, const FilmFormat& format,
+                                               std::uint32_t tile, const MadeFrom& made_from);
+
 }  // namespace lightnet

@@ -88,6 +88,7 @@ Lap Track::lap(const Contestant& contestant, std::uint64_t seed, bool pictures) 
     request.output = picture.string();
     request.seed = seed;
     request.forget = true;
+    request.memo = false;
     request.progress = ProgressMode::none;
     request.reference = reference_;
     if (truth_) request.curve = csv.string();

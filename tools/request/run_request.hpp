@@ -68,6 +68,7 @@ struct RunSettings {
     std::uint64_t seed = 0;
     bool resume = false;      // from the checkpoint beside the output, if there is one
     bool forget = false;      // leave no checkpoint beside a finished picture
+    bool memo = false;        // take what earlier runs have rendered of the same, and keep it for later ones
     std::string listen;       // endpoint where hosts may join; "": nowhere
     std::string pass;         // file with what hosts must know to join; "": the usual one
     FaultInjection troubles;  // of local workers

@@ -47,6 +47,19 @@ bool CheckpointKeeper::take_up(const std::function<void(FilmState)>& restore) {
     return true;
 }
 
+bool CheckpointKeeper::recall(const std::function<void(FilmState)>& restore) {
+    auto found = memo_->find(film_.format().samples);
+    if (!found) return false;
+    const bool as_many = found->samples == film_.format().samples;
+    restore(std::move(*found));
+    known_ = as_many && film_.complete();
+    return true;
+}
+
+void CheckpointKeeper::remember() const {
+    if (memo_ && !known_) memo_->keep(film_);
+}
+
 std::string CheckpointKeeper::save_if_due(std::uint64_t blocks) {
     const auto now = Clock::now();
     std::string complaint;
@@ -97,6 +110,7 @@ void CheckpointKeeper::begin_anew() {
     remove();
     saving_ = {};
     saved_ = 0;
+    known_ = false;
 }
 
 void CheckpointKeeper::remove() {

@@ -7,11 +7,14 @@
 #include <functional>
 #include <future>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/film/checkpoint.hpp"
 #include "core/film/film.hpp"
+#include "tools/session/film_memo.hpp"
 #include "tools/support/pace.hpp"
 
 namespace lightnet {
@@ -27,6 +30,13 @@ public:
     /// Hands on what an earlier run left there; false: nothing. Throws UserError when that was another picture's, or
     /// doesn't fit.
     bool take_up(const std::function<void(FilmState)>& restore);
+    /// Finished pictures are looked for there, and kept.
+    void remember_in(std::unique_ptr<FilmMemo> memo) { memo_ = std::move(memo); }
+    bool remembers() const { return memo_ != nullptr; }
+    /// Hands on the film of an earlier run, wherever that picture went; false: there is none that fits.
+    bool recall(const std::function<void(FilmState)>& restore);
+    /// Keeps the film, which is finished, unless all of it was recalled.
+    void remember() const;
     /// So many blocks are in the file already.
     void found(std::uint64_t blocks) { saved_ = blocks; }
     /// Saves in the background, when that is due. What was wrong with the last time; "": nothing.
@@ -44,7 +54,9 @@ private:
 
     Film& film_;
     std::filesystem::path file_;
-    Checkpoint last_;  // being saved, or what was; its room is used again
+    std::unique_ptr<FilmMemo> memo_;  // null: nothing is remembered
+    bool known_ = false;              // it has all of the film
+    Checkpoint last_;                 // being saved, or what was; its room is used again
     Pace pace_;
     std::future<double> saving_;   // seconds that it took
     double seconds_per_byte_ = 0;  // the last time; 0: not known

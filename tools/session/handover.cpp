@@ -27,6 +27,13 @@ void Handover::hold(const Job& job, const Registry& registry, std::shared_ptr<Re
     read_ = std::move(read);
 }
 
+void Handover::leave(LoadedScene& scene) {
+    if (scene.built)
+        hold(scene.built);
+    else
+        hold(std::move(scene.data));
+}
+
 std::optional<LoadedScene> Handover::take(const Job& job, const Registry& registry) {
     if (!source_ || (!built_ && !data_)) return std::nullopt;
     auto source = scene_source(job, registry);
@@ -45,6 +52,7 @@ std::optional<LoadedScene> Handover::take(const Job& job, const Registry& regist
         scene.data = *std::exchange(data_, std::nullopt);
     }
     source_ = std::move(source);
+    scene.tree = tree_;
     return scene;
 }
 
@@ -57,6 +65,7 @@ void Handover::drop() {
     read_.reset();
     built_.reset();
     data_.reset();
+    tree_.reset();
 }
 
 }  // namespace lightnet

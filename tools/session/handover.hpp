@@ -31,6 +31,10 @@ public:
     /// It was built; or, where nothing was built of it, this is what there is.
     void hold(std::shared_ptr<const Scene> built) { built_ = std::move(built); }
     void hold(SceneData data) { data_ = std::move(data); }
+    /// One or the other, of a scene that its run needs no more.
+    void leave(LoadedScene& scene);
+    /// Somebody has looked into it.
+    void hold(SceneTree tree) { tree_ = std::move(tree); }
 
     /// The files of the scene so far; null: none.
     const std::shared_ptr<ReadScene>& read() const { return read_; }
@@ -67,6 +71,7 @@ private:
     std::shared_ptr<ReadScene> read_;
     std::shared_ptr<const Scene> built_;
     std::optional<SceneData> data_;
+    std::optional<SceneTree> tree_;
 };
 
 }  // namespace lightnet

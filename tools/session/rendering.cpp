@@ -95,7 +95,7 @@ void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
 std::shared_ptr<const Network> Rendering::network_of(LoadedScene scene) {
     auto network = build_network(what_.job, what_.registry, std::move(scene));
     if (what_.handover) what_.handover->hold(network->scene);
-    book_.share(network, made_from(what_.job));
+    book_.share(network, what_.made_from);
     return network;
 }
 
@@ -128,7 +128,7 @@ void Rendering::serially(LoadedScene scene) {
 void Rendering::render(SerialRun& run) {
     auto tiles = book_.next_step();
     const auto say = [this](const std::string& text) { book_.say(text); };
-    run.prepare(made_from(what_.job), cache(), say, TilesByPass(what_.job.graph, what_.registry, tiles).pass());
+    run.prepare(what_.made_from, cache(), say, TilesByPass(what_.job.graph, what_.registry, tiles).pass());
     what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
     book_.phase("render");
     for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
@@ -202,7 +202,7 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     options.graph = &what_.job.graph;
     options.registry = &what_.registry;
     options.width = static_cast<std::uint32_t>(what_.format.colours());
-    options.made_from = made_from(what_.job);
+    options.made_from = what_.made_from;
     options.cache = cache();
     options.verify = what_.request.tuning.verify;
     options.say = [this](const std::string& text) { book_.say(text); };

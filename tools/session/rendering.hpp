@@ -39,6 +39,7 @@ struct Assignment {
     const Job& job;
     const FilmFormat& format;
     const KeptFiles& kept;
+    const MadeFrom& made_from;
     Handover* handover = nullptr;  // between the runs of a sequence; null: this one is alone
 };
 

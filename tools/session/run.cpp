@@ -22,6 +22,7 @@
 #include "tools/pictures/picture_recipe.hpp"
 #include "tools/request/run_settings.hpp"
 #include "tools/session/delivery.hpp"
+#include "tools/session/film_memo.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/kept_files.hpp"
 #include "tools/session/rendering.hpp"
@@ -112,7 +113,7 @@ private:
     std::optional<int> watched(const std::function<std::optional<int>()>& work);
     std::optional<int> reported(const std::function<std::optional<int>()>& work);
     bool show_outcome(const std::string& outcome);
-    void take_up_checkpoint(const LoadedScene& scene);
+    void take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made);
     void report_failure();
 
     const RunRequest& request_;
@@ -127,8 +128,9 @@ private:
     std::optional<PictureLock> lock_;  // until all is written
 };
 
-void Run::take_up_checkpoint(const LoadedScene& scene) {
+void Run::take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made) {
     auto recipe = picture_recipe(scene_.job(), registry_, format_, request_.tuning.tile);
+    const auto film = film_recipe(scene_.job(), registry_, format_, request_.tuning.tile, made);
     const CameraData camera =
         scene.built ? scene.built->seen_from() : camera_in(scene.data, format_.width, format_.height);
     if (watcher_ && request_.shown)
@@ -137,8 +139,9 @@ void Run::take_up_checkpoint(const LoadedScene& scene) {
     auto words = words_of(request_.graph, registry_, format_, recipe, data_of(scene), camera);
     if (const auto& name = request_.lighting.name; !name.empty()) words.notes.texts["lighting"] = name;
     book_.describe(std::move(words));
-    book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint));
-    if (request_.resume) book_.take_up_checkpoint();
+    book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint),
+                          memo_for(request_, registry_, film, [this](const auto& why) { book_.warn(why); }));
+    book_.take_up_checkpoint(request_.resume);
 }
 
 std::optional<int> Run::render_film() {
@@ -146,6 +149,7 @@ std::optional<int> Run::render_film() {
     book_.phase("load");
     LoadedScene scene = scene_.load(book_);
     if (scene_.was_there(scene, book_)) return exit_code::done;
+    const MadeFrom made = scene_.made_from(scene);
     const KeptFiles to_keep(request_.graph, registry_, data_of(scene));
     book_.expose(scene.built ? scene.built->film().scale : scene.data.film.scale);
     book_.limit_time(request_.time_limit);
@@ -158,15 +162,16 @@ std::optional<int> Run::render_film() {
     book_.trace_to(request_.trace);
     if (request_.shown) book_.show_steps(request_.output, request_.shown);
     if (request_.preview > 0) book_.preview(request_.output, request_.preview);
-    take_up_checkpoint(scene);
-    if (book_.complete() && book_.is_written(request_.output)) {
+    take_up_checkpoint(scene, made);
+    if (book_.complete() && request_.resume && book_.is_written(request_.output)) {
         book_.say(request_.output + " is finished: nothing to do; ask for more with --samples");
         return exit_code::done;
     }
-    if (book_.complete())
-        book_.say(request_.output + " is finished but for its file");
-    else
-        Rendering({request_, registry_, scene_.job(), format_, to_keep, handover_}, book_, signals_)
+    if (book_.complete() && request_.resume) book_.say(request_.output + " is finished but for its file");
+    if (book_.complete() && handover_)
+        handover_->leave(scene);
+    else if (!book_.complete())
+        Rendering({request_, registry_, scene_.job(), format_, to_keep, made, handover_}, book_, signals_)
             .perform(std::move(scene), scene_.files());
     if (signals_.any) return cancelled();
     if (!book_.complete() && !end_in_time()) return exit_code::failed;

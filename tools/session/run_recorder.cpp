@@ -207,16 +207,28 @@ std::string RunRecorder::write_preview() {
 }
 
 void RunRecorder::keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
-                                  std::chrono::seconds period) {
+                                  std::chrono::seconds period, std::unique_ptr<FilmMemo> memo) {
     checkpoint_.emplace(steps_.film(), exr, std::move(recipe), period);
+    checkpoint_->remember_in(std::move(memo));
 }
 
-void RunRecorder::take_up_checkpoint() {
+void RunRecorder::take_up_checkpoint(bool resume) {
+    if (!resume && !checkpoint_->remembers()) return;
     const auto file = checkpoint_->file().string();
-    const bool there = checkpoint_->take_up([this](FilmState state) { steps_.restore(std::move(state)); });
-    say(there ? "going on from " + file : "there is no " + file + "; beginning at the beginning");
+    const auto restore = [this](FilmState state) { steps_.restore(std::move(state)); };
+    const bool there = resume && checkpoint_->take_up(restore);
+    if (resume) say(there ? "going on from " + file : "there is no " + file + "; beginning at the beginning");
+    if (!there && checkpoint_->remembers()) {
+        const bool known = checkpoint_->recall(restore);
+        set("memo", fmt::format("{:.10g}", known ? film().mean_samples() : 0));
+        say(!known ? std::string("memo: nothing of this picture is there; all of it is rendered")
+            : steps_.finished()
+                ? "memo: all of this picture is there; nothing is rendered"
+                : fmt::format("memo: {:.10g} samples per pixel of {} are there; the others are rendered",
+                              film().mean_samples(), film().format().samples));
+    }
     blocks_ = steps_.found();
-    checkpoint_->found(blocks_);
+    if (there) checkpoint_->found(blocks_);
     if (blocks_) progress_.found_done(blocks_, Clock::now());
 }
 
@@ -237,6 +249,7 @@ bool RunRecorder::save_checkpoint(std::optional<std::chrono::duration<double>> m
 
 void RunRecorder::end_checkpoint(bool stays) {
     if (!checkpoint_) return;
+    if (steps_.finished()) checkpoint_->remember();
     try {
         if (stays)
             save_checkpoint();

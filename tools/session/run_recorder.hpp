@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -50,7 +51,7 @@ public:
     /// From now on, those who watch are shown what happens. Outlives the book, or until the run is told to end.
     void show_to(Watcher* watcher) { watcher_ = watcher; }
     /// Those who watch may ask how its pixels come about.
-    void share(const std::shared_ptr<const Network>& network, const std::string& made_from) {
+    void share(const std::shared_ptr<const Network>& network, const MadeFrom& made_from) {
         if (watcher_) watcher_->share(network, made_from, scale_);
     }
     /// Somebody may watch.
@@ -129,11 +130,12 @@ public:
     void moved(const Move& move);
 
     /// From now on the film is saved beside `exr` from time to time, in the background. `recipe` is what the picture
-    /// depends on.
-    void keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe,
-                         std::chrono::seconds period);
-    /// Takes up what an earlier run left there, if anything. Throws UserError when that was another picture's.
-    void take_up_checkpoint();
+    /// depends on; `memo`: where it is kept when it is finished, null: nowhere.
+    void keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe, std::chrono::seconds period,
+                         std::unique_ptr<FilmMemo> memo = nullptr);
+    /// Takes up what an earlier run left there, if anything and if that is wanted; else what the memo has. Throws
+    /// UserError when what was left there was another picture's.
+    void take_up_checkpoint(bool resume);
     /// Of all samples, 0 to 1.
     double share_done() const {
         return all_blocks_ ? static_cast<double>(blocks_) / static_cast<double>(all_blocks_) : 0;

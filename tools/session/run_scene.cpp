@@ -55,11 +55,15 @@ bool RunScene::was_there(LoadedScene& scene, RunRecorder& book) const {
     book.set("frame", std::to_string(request_.frame->number));
     if (!request_.resume || !is_there(request_.output, recipe)) return false;
     if (handover_) handover_->was_there = true;
-    if (handover_ && scene.built)
-        handover_->hold(scene.built);
-    else if (handover_)
-        handover_->hold(std::move(scene.data));
+    if (handover_) handover_->leave(scene);
     return true;
+}
+
+MadeFrom RunScene::made_from(LoadedScene& scene) const {
+    const bool wanted = request_.memo || !preparing_nodes(job_.graph, registry_).empty();
+    auto made = wanted ? lightnet::made_from(job_, registry_, scene) : lightnet::made_from(job_);
+    if (handover_ && scene.tree) handover_->hold(*scene.tree);
+    return made;
 }
 
 }  // namespace lightnet

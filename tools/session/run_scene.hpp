@@ -28,6 +28,9 @@ public:
     /// Of a frame that is to be gone on with: another run, or an earlier one, has done all of it.
     bool was_there(LoadedScene& scene, RunRecorder& book) const;
 
+    /// What it is made of, for all that follows from it. Whoever comes next finds what was looked into.
+    MadeFrom made_from(LoadedScene& scene) const;
+
     /// Once it is loaded.
     const Job& job() const { return job_; }
     const DiskFiles& files() const { return read_->files; }

@@ -53,7 +53,9 @@ std::string recipe_of_frame(const Job& job) {
     Graph graph = job.graph;
     graph.file.clear();
     for (auto& node : graph.nodes) node.where = {};
-    return to_hex(content_hash(made_from(job) + '\n' + to_json(graph) + '\n' + std::to_string(fingerprint(job.isa))));
+    const MadeFrom made = made_from(job);
+    return to_hex(content_hash(made.run + '\n' + made.files + '\n' + to_json(graph) + '\n' +
+                               std::to_string(fingerprint(job.isa))));
 }
 
 bool is_there(const std::string& exr, const std::string& recipe) try {

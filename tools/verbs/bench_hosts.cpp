@@ -150,6 +150,7 @@ public:
         running.progress = ProgressMode::none;
         running.tuning.cache = "none";
         running.forget = true;
+        running.memo = false;
         auto request = request_of(running, launcher_, std::move(some));
         request.local_places = 1;
         if (const int code = launcher_.run(request); code != 0)

@@ -55,7 +55,7 @@ public:
     void look_from(const Viewpoint& viewpoint) { state_.viewpoint = viewpoint; }
     void phase(const std::string& name);
     /// Places of this process render with that; a pixel of it can be explained without reading the scene again.
-    void share(const std::shared_ptr<const Network>& network, const std::string& made_from, float scale) {
+    void share(const std::shared_ptr<const Network>& network, const MadeFrom& made_from, float scale) {
         if (options_.explainer) options_.explainer->share(network, made_from, scale);
     }
     void say(const std::string& text);

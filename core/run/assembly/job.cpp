@@ -6,7 +6,9 @@
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/json.hpp"
+#include "core/network/graph/layout.hpp"
 #include "core/network/graph/plugin_use.hpp"
+#include "core/scene/camera_in.hpp"
 
 namespace lightnet {
 
@@ -168,11 +170,34 @@ std::shared_ptr<const Scene> seen_by(const Job& job, const Registry& registry, c
     return onlooker ? std::make_shared<const Scene>(built, *onlooker, scene_options(job)) : nullptr;
 }
 
-std::string made_from(const Job& job) {
-    std::string text = build_id() + '\n' + job.isa + '\n' + std::to_string(job.seed) + '\n' + job.scene;
-    for (const auto& file : job.files) text += '\n' + file.path + ' ' + to_hex(file.hash);
-    for (const auto& plugin : job.plugins) text += '\n' + plugin;
-    return text;
+MadeFrom made_from(const Job& job) {
+    MadeFrom made(build_id() + '\n' + job.isa + '\n' + std::to_string(job.seed));
+    for (const auto& plugin : job.plugins) made.run += '\n' + plugin;
+    made.files = job.scene;
+    for (const auto& file : job.files) made.files += '\n' + file.path + ' ' + to_hex(file.hash);
+    return made;
+}
+
+MadeFrom made_from(const Job& job, const Registry& registry, LoadedScene& scene) {
+    MadeFrom made = made_from(job);
+    if (!scene.tree && !scene.built) scene.tree = tree_of(scene.data);
+    if (!scene.tree) return made;
+    for (const auto& [node, bytes] : scene.kept) made.run += "\n" + node + " from " + to_hex(content_hash(*bytes));
+    for (std::size_t i = 0; i < written_nodes(job.graph); ++i) {
+        const Node& node = job.graph.nodes[i];
+        const Kind& kind = *registry.find(node.kind);
+        made.reads.push_back(kind.role == Role::scene ? SceneParts() : reads_of(kind, node));
+    }
+    made.light = text_of_light(job.graph, registry);
+    FilmData film = scene.built ? scene.built->film() : scene.data.film;
+    film.width = job.width, film.height = job.height;
+    made.scene = scene.tree;
+    made.scene->look_by(scene.built ? scene.built->seen_from() : camera_in(scene.data, job.width, job.height), film);
+    return made;
+}
+
+MadeFrom made_from_if_prepared(const Job& job, const Registry& registry, LoadedScene& scene) {
+    return preparing_nodes(job.graph, registry).empty() ? made_from(job) : made_from(job, registry, scene);
 }
 
 }  // namespace lightnet

@@ -15,6 +15,7 @@
 #include "core/readers/files/files.hpp"
 #include "core/run/assembly/assembly.hpp"
 #include "core/run/assembly/load_scene.hpp"
+#include "core/run/assembly/prepared.hpp"
 #include "core/run/message/tuning.hpp"
 
 namespace lightnet {
@@ -82,7 +83,12 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
 /// else. Null: it can't be, as more hangs on the camera. Throws UserError when that camera can't be.
 std::shared_ptr<const Scene> seen_by(const Job& job, const Registry& registry, const Scene& built);
 
-/// All that what is prepared may depend on, beside the graph: see Recipes.
-std::string made_from(const Job& job);
+/// All that what is prepared may depend on, where nobody looks into the scene.
+MadeFrom made_from(const Job& job);
+/// What it depends on by the parts of a scene that has been loaded. That is looked into first, unless somebody has
+/// (LoadedScene::tree) or it is built already, which takes as long as reading its files once more.
+MadeFrom made_from(const Job& job, const Registry& registry, LoadedScene& scene);
+/// By parts of the scene where any node prepares; else made_from() of the job alone.
+MadeFrom made_from_if_prepared(const Job& job, const Registry& registry, LoadedScene& scene);
 
 }  // namespace lightnet

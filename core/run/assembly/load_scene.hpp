@@ -30,6 +30,7 @@ struct LoadedScene {
     SceneData data;
     KeptResults kept{};
     std::shared_ptr<const Scene> built{};  // of the data, which is empty then; null: still to be built
+    std::optional<SceneTree> tree{};       // of the data, without who looks; none: nobody has looked into it
 };
 
 /// Changes a scene as read from its file. Throws UserError, also with what nodes of the graph find wrong with it.

@@ -88,20 +88,49 @@ std::string scene_text(const Graph& graph) {
 
 }  // namespace
 
-Recipes::Recipes(const Graph& graph, std::string made_from)
-    : graph_(graph), made_from_(std::move(made_from)), whole_(text_of(written(graph))) {
-    const std::string scenes = scene_text(graph);
+std::string text_of_light(const Graph& graph, const Registry& registry) {
+    const auto used = used_nodes(graph, renderer_of(graph, registry));
+    Graph light;
+    for (std::size_t i = 0; i < written_nodes(graph); ++i) {
+        if (!used[i]) continue;
+        Node& node = light.nodes.emplace_back(graph.nodes[i]);
+        const Kind& kind = *registry.find(node.kind);
+        if (kind.role == Role::scene) node.entries.clear(), node.params.clear();
+        if (kind.role != Role::image) continue;
+        for (const auto& param : kind.params)
+            if (param.type == ParamType::film || param.name == "samples" || param.name == "error")
+                node.params.erase(param.name);
+    }
+    const auto film = film_of(graph, registry);
+    return text_of(std::move(light)) + '\n' + std::to_string(film.width) + ' ' + std::to_string(film.height);
+}
+
+SceneParts all_read(const MadeFrom& made_from, const std::vector<bool>& used) {
+    SceneParts read;
+    for (std::size_t i = 0; i < made_from.reads.size(); ++i)
+        if (used[i]) read |= made_from.reads[i];
+    return read;
+}
+
+Recipes::Recipes(const Graph& graph, MadeFrom made_from) : graph_(graph), made_from_(std::move(made_from)) {
+    whole_ = made_from_.scene ? made_from_.light : text_of(written(graph));
+    whole_ += '\n' + text_of_scene(std::vector<bool>(graph.nodes.size(), true));
     for (std::size_t node = 0; node < written_nodes(graph); ++node) {
         const auto used = used_nodes(graph, node);
         Graph part;
         for (std::size_t i = 0; i < written_nodes(graph); ++i)
             if (used[i]) part.nodes.push_back(graph.nodes[i]);
-        subgraph_.push_back(text_of(std::move(part)) + '\n' + scenes);
+        subgraph_.push_back(text_of(std::move(part)) + '\n' + text_of_scene(used));
     }
 }
 
+std::string Recipes::text_of_scene(const std::vector<bool>& used) const {
+    if (!made_from_.scene) return made_from_.files + '\n' + scene_text(graph_);
+    return to_hex(made_from_.scene->of(all_read(made_from_, used)));
+}
+
 Hash Recipes::of(std::size_t node, std::uint32_t call, bool rehearsed, const std::string& part) const {
-    return content_hash(made_from_ + '\n' + graph_.nodes[node].name + '\n' + std::to_string(call) + '\n' +
+    return content_hash(made_from_.run + '\n' + graph_.nodes[node].name + '\n' + std::to_string(call) + '\n' +
                         (rehearsed ? whole_ : subgraph_[node]) + part);
 }
 

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/bytes.hpp"
@@ -13,6 +15,7 @@
 #include "core/film/tile.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
+#include "core/scene/data/identity.hpp"
 
 namespace lightnet {
 
@@ -36,21 +39,46 @@ std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, 
 /// What a rehearsal gives: the questions that were noted, sorted.
 Bytes rehearsal_result(const std::vector<Query>& noted);
 
+/// The nodes that the picture needs as text, without what changes no answer: where their lines stand, the film but for
+/// its size, samples and noise threshold, and what the graph says of its scene.
+std::string text_of_light(const Graph& graph, const Registry& registry);
+
+/// Everything that results may depend on beside the nodes that are asked for them. A value.
+struct MadeFrom {
+    MadeFrom() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): a text that stands for all of it
+    MadeFrom(std::string all) : run(std::move(all)) {}
+    // NOLINTNEXTLINE(google-explicit-constructor): likewise
+    MadeFrom(const char* all) : run(all) {}
+
+    std::string run;                   // build, instruction set, seed, plugins, and what nodes go on from
+    std::string files{};               // of the scene; they count where nobody has looked into it
+    std::optional<SceneTree> scene{};  // with camera and film
+    std::vector<SceneParts> reads{};   // by node of the graph
+    std::string light{};               // text_of_light() of it
+};
+/// What these nodes of a graph read, all together.
+SceneParts all_read(const MadeFrom& made_from, const std::vector<bool>& used);
+
 /// Names for results of preparing: equal recipes give equal results.
 class Recipes {
 public:
-    /// `made_from`: everything beside the graph that bytes may depend on (scene files, seed, build, instruction set).
-    Recipes(const Graph& graph, std::string made_from);
+    Recipes(const Graph& graph, MadeFrom made_from);
 
     /// The `call`-th call of the node's prepare(). What a node learns in rehearsals depends on the whole graph; before
-    /// the first of them, on the node and on what it asks. `part` says which part of the result is meant; "": all.
+    /// the first of them, on the node and on what it asks: on the parts of the scene that these read, or where nobody
+    /// has looked into it, on its files and on what the graph says of it. `part` says which part of the result is
+    /// meant; "": all.
+    // DECISIONS: recipes-by-part
     Hash of(std::size_t node, std::uint32_t call, bool rehearsed, const std::string& part = {}) const;
 
 private:
+    std::string text_of_scene(const std::vector<bool>& used) const;
+
     const Graph& graph_;
-    std::string made_from_;
-    std::string whole_;                  // graph, as text
-    std::vector<std::string> subgraph_;  // by node, as text
+    MadeFrom made_from_;
+    std::string whole_;                  // graph and scene, as text
+    std::vector<std::string> subgraph_;  // by node, likewise
 };
 
 /// What a call of preparing has given, and its content hash. Without bytes: there is none.

@@ -24,7 +24,7 @@ struct PrepareOptions {
     const Graph* graph = nullptr;  // outlives the coordinator, like the registry
     const Registry* registry = nullptr;
     std::uint32_t width = 1;       // colours per pixel
-    std::string made_from;         // see Recipes
+    MadeFrom made_from;            // see Recipes
     ResultCache* cache = nullptr;  // may be absent
     std::uint32_t verify = 0;      // millionths of the shards that two hosts are asked
     double let_go_after = 5;       // seconds, since a node has left a place: who has not heard yet may ask for it

@@ -83,7 +83,7 @@ private:
 class ServiceCalls {
 public:
     /// `cache` may be null. `renewed`: renewed_nodes(), whose results nobody wants in a later run.
-    ServiceCalls(const Graph& graph, std::string made_from, ResultCache* cache, std::vector<bool> renewed = {})
+    ServiceCalls(const Graph& graph, MadeFrom made_from, ResultCache* cache, std::vector<bool> renewed = {})
         : graph_(graph), recipes_(graph, std::move(made_from)), cache_(cache), renewed_(std::move(renewed)) {}
 
     /// The call that a place reports; begun, or found in the cache, when nobody has reported it before. Throws Error

@@ -110,7 +110,7 @@ SerialRun::SerialRun(const Network& network, std::function<void()> pause, Accoun
     assembly_.renderer(image_);
 }
 
-void SerialRun::prepare(const std::string& made_from, ResultCache* cache, std::function<void(const std::string&)> say,
+void SerialRun::prepare(const MadeFrom& made_from, ResultCache* cache, std::function<void(const std::string&)> say,
                         std::uint32_t pass) {
     made_from_ = made_from;
     cache_ = cache;

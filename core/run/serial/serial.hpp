@@ -28,7 +28,7 @@ public:
 
     /// Has all nodes that prepare do so. Before the first tile, which belongs to pass `pass`. Results are looked for in
     /// `cache`, and kept there; lines for the user go to `say`.
-    void prepare(const std::string& made_from, ResultCache* cache = nullptr,
+    void prepare(const MadeFrom& made_from, ResultCache* cache = nullptr,
                  std::function<void(const std::string&)> say = {}, std::uint32_t pass = 0);
     /// Tells `tracer` from now on what it is busy with.
     void trace(PlaceTracer& tracer) {
@@ -63,7 +63,7 @@ private:
     std::uint64_t rays_before_;
     std::vector<std::unique_ptr<DirectPort>> ports_;
     std::map<std::size_t, Bytes> last_results_;
-    std::string made_from_;
+    MadeFrom made_from_;
     ResultCache* cache_ = nullptr;
     std::function<void(const std::string&)> say_;
     std::uint32_t pass_ = 0;
