@@ -15,7 +15,7 @@ namespace {
 
 // The graph without what stands apart in a recipe, and without what changes no pixel: where its lines stand, and how
 // its files are called.
-std::string text_of_light(Graph graph, const Registry& registry) {
+std::string text_of_graph(Graph graph, const Registry& registry) {
     graph.file.clear();
     for (auto& node : graph.nodes) {
         node.where = {};
@@ -37,7 +37,7 @@ std::map<std::string, std::string> picture_recipe(const Job& job, const Registry
     std::string build = build_id();
     for (const auto& plugin : job.plugins) build += ", " + plugin;
     const auto crop = format.crop.value_or(Window{0, 0, format.width, format.height});
-    return {{"graph", to_hex(content_hash(text_of_light(written(job.graph), registry)))},
+    return {{"graph", to_hex(content_hash(text_of_graph(written(job.graph), registry)))},
             {"scene", to_hex(content_hash(files))},
             {"seed", std::to_string(job.seed)},
             {"size", fmt::format("{}x{}", format.width, format.height)},
