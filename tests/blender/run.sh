@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# run.sh SCENE...: compares pictures of scenes with those of Cycles; `run.sh engine` installs the add-on from its zip and tries
-# it, and `run.sh viewport` does so in a window, on a screen of its own. Needs $LIGHTNET. Without Blender, or a screen, it says
-# so, and leaves by 77.
+# run.sh SCENE...: compares pictures of scenes with those of Cycles. `run.sh engine` installs the add-on from its zip and tries
+# it; `run.sh viewport` does so in a window, on a screen of its own; `run.sh compositor` does what docs/compositor.md says.
+# Needs $LIGHTNET. Without Blender, or a screen, it says so, and leaves by 77.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 command -v blender >/dev/null || { echo "Blender is not installed"; exit 77; }
@@ -13,6 +13,7 @@ mkdir -p "$BLENDER_USER_CONFIG" "$BLENDER_USER_SCRIPTS/addons" "$TMPDIR"
 script=against_cycles.py
 blender=(blender -b)
 case ${1-} in
+    compositor) script=compositor_test.py ;;
     engine | viewport)
         script=$1_test.py
         [ "$1" = engine ] || {
