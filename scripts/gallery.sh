@@ -72,6 +72,28 @@ picture vase "A vase of flowers, from glTF" "Scene: Eric Chadwick and Rico Cilli
 picture openness "The same car by ambient occlusion" "Scene: tyrant monkey, CC0." \
     render "$scenes/bmw-m6-pbrt/bmw-m6.pbrt" --lighting ao --size 480x270 --samples 128
 
+# From Blender, where it is installed with the add-on.
+if command -v blender >/dev/null && LIGHTNET=$(realpath "$lightnet") blender -b --factory-startup \
+    --python examples/blender/monkeys.py -- "$work/gallery/monkeys.png" 128 >/dev/null 2>&1; then
+    rm -f "$work/gallery/monkeys.exr"
+    cat >>"$page" <<END
+## Brass, glass and clay, from Blender
+
+![Brass, glass and clay, from Blender](gallery/monkeys.png)
+
+    blender -b --factory-startup --python examples/blender/monkeys.py -- monkeys.png 128
+
+END
+else
+    echo "left out: the scene from Blender" >&2
+fi
+cat >>"$page" <<END
+## In a notebook
+
+The [labs](labs/index.md) are notebooks as well, with their pictures: [strategies and their weights](labs/notebooks/02-mis.ipynb).
+
+END
+
 # A noisy picture beside the cleaned one, for the README.
 if [ -e "$scenes/living-room-pbrt/living-room.pbrt" ]; then
     "$lightnet" render "$scenes/living-room-pbrt/living-room.pbrt" --size 480x270 --samples 32 --clean \
