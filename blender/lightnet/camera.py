@@ -6,6 +6,7 @@ import math
 from mathutils import Matrix, Vector
 
 from . import xml
+from .motion import Way
 
 
 @dataclasses.dataclass
@@ -20,6 +21,7 @@ class View:
     lens: tuple | None  # radius of the aperture and distance of what is sharp; None: all is sharp
     size: tuple  # pixels
     name: str
+    way: Way | None = None  # of the matrix, if it moves while the shutter is open
 
     def looks_along(self):
         """What `camera` of a graph's scene says of it: where from, where to, what is up, degrees across the shorter side.
@@ -62,7 +64,7 @@ def lens_of(camera):
     return length / (2 * max(data.dof.aperture_fstop, 1e-5)), max(distance, 1e-5)
 
 
-def view_of(camera, scene, report):
+def view_of(camera, scene, report, motion):
     """What an evaluated camera object sees."""
     data = camera.data
     if data.type == "PANO":
@@ -70,9 +72,10 @@ def view_of(camera, scene, report):
     if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:
         report.missing("pixels that are not square", scene.name)
     half, middle = frame_of(data, scene)
+    matrix = camera.matrix_world.normalized()
     return View(
-        camera.matrix_world.normalized(), half, middle, data.type == "ORTHO", (data.clip_start, data.clip_end),
-        lens_of(camera), size_of(scene), camera.name,
+        matrix, half, middle, data.type == "ORTHO", (data.clip_start, data.clip_end), lens_of(camera), size_of(scene),
+        camera.name, motion.way("camera", matrix),
     )
 
 
@@ -91,17 +94,16 @@ def view_of_region(context, size):
     return View(seen.view_matrix.inverted().normalized(), half, middle, orthographic, clip, lens, size, "the viewport")
 
 
-def sensor(view, report):
-    """The element of a view."""
+def sensor(view, report, blurred=False):
+    """The element of a view. blurred: what moves is seen from time 0 to time 1."""
     (wide, high), (x, y) = view.half, view.middle
     kind = "orthographic" if view.orthographic else "thinlens" if view.lens else "perspective"
     turned = Matrix(((-1, 0, 0, 0), (0, 1, 0, 0), (0, 0, -1, 0), (0, 0, 0, 1)))
-    stood = view.matrix @ turned
     if view.orthographic:
-        stood = stood @ Matrix.Diagonal((wide, wide, 1, 1))
+        turned = turned @ Matrix.Diagonal((wide, wide, 1, 1))
         if view.lens:
             report.missing("depth of field of orthographic cameras", view.name)
-    element = xml.Element("sensor", type=kind).add(xml.transform(stood))
+    element = xml.Element("sensor", type=kind).add((view.way or Way(view.matrix)).element(lambda m: m @ turned))
     if not view.orthographic:
         element.add(xml.number("fov", math.degrees(2 * math.atan(wide))), xml.word("fov_axis", "x"))
     if view.lens and not view.orthographic:
@@ -110,5 +112,7 @@ def sensor(view, report):
         element.add(xml.number("principal_point_offset_x", x / (2 * wide)))
         element.add(xml.number("principal_point_offset_y", -y / (2 * high)))
     element.add(xml.number("near_clip", view.clip[0]), xml.number("far_clip", view.clip[1]))
+    if blurred:
+        element.add(xml.number("shutter_open", 0), xml.number("shutter_close", 1))
     width, height = view.size
     return element.add(xml.Element("film", type="hdrfilm").add(xml.integer("width", width), xml.integer("height", height)))

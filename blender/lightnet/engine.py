@@ -8,7 +8,7 @@ import time
 import bpy
 import numpy
 
-from . import graph, program, viewport
+from . import graph, motion, program, viewport
 from .camera import size_of
 from .export import Export, plain
 from .picture import Picture
@@ -100,7 +100,9 @@ class LightnetEngine(bpy.types.RenderEngine):
         began = time.monotonic()
         self.update_stats("", "exporting")
         where = program.path_of(viewport.chosen_program())
-        export = Export(folder, scene, depsgraph, layer)
+        moving = motion.look(self, depsgraph)
+        scene, layer = depsgraph.scene, depsgraph.view_layer
+        export = Export(folder, scene, depsgraph, layer, moving=moving)
         export.write()
         for line in export.report.lines():
             self.report({"WARNING"}, line)

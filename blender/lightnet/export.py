@@ -5,7 +5,7 @@ import re
 
 from mathutils import Matrix
 
-from . import camera, lamps, meshes, shaders, values, world, xml
+from . import camera, lamps, meshes, motion, shaders, values, world, xml
 from .report import Report
 
 with_mesh = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -19,10 +19,10 @@ def plain(name):
 class Export:
     """Writes into a folder that may have files of frames before: what is there by the same bytes stays."""
 
-    def __init__(self, folder, scene, depsgraph, view_layer=None, view=None):
-        """view: what the picture is seen from; else the scene's camera."""
+    def __init__(self, folder, scene, depsgraph, view_layer=None, view=None, moving=None):
+        """view: what the picture is seen from; else the scene's camera. moving: a Motion; None: all stands still."""
         self.folder, self.scene, self.depsgraph = folder, scene, depsgraph
-        self.report = Report()
+        self.report, self.motion = Report(), moving or motion.Motion()
         self.view = view or self._view_of_camera()
         self.groups = {}  # names of lamps by group
         self._used, self._surfaces, self._parts, self._ids = set(), {}, {}, set()
@@ -34,13 +34,15 @@ class Export:
     def _view_of_camera(self):
         if self.scene.camera is None:
             raise ValueError("the scene has no camera")
-        return camera.view_of(self.scene.camera.evaluated_get(self.depsgraph), self.scene, self.report)
+        return camera.view_of(self.scene.camera.evaluated_get(self.depsgraph), self.scene, self.report, self.motion)
 
     def write(self, name="scene.xml"):
         """Writes all of it, and removes what is no longer used."""
         root = xml.Element("scene", version="3.0.0")
-        root.add(camera.sensor(self.view, self.report))
+        root.add(camera.sensor(self.view, self.report, self.motion.moves()))
         self._gather()
+        for name in self.motion.deforming:
+            self.report.approximate("meshes and lenses that change while the shutter is open are as in their frame", name)
         for element in world.elements(self.depsgraph.scene, self):
             self._body.append(element)
         if self.depsgraph.scene.world:
@@ -132,9 +134,9 @@ class Export:
             thing = instance.object
             if not instance.show_self:
                 continue
-            matrix = instance.matrix_world.copy()
+            way = self.motion.way(motion.key_of(instance), instance.matrix_world.copy())
             if thing.type == "LIGHT":
-                self._lamp(thing, matrix)
+                self._lamp(thing, way)
             elif thing.type in with_mesh:
                 looks = tuple(slot.material.name_full if slot.material else None for slot in thing.material_slots)
                 key = thing.type, thing.data.as_pointer(), looks
@@ -142,7 +144,7 @@ class Export:
                     found[key] = self._mesh(thing), []
                     order.append(key)
                 group = thing.lightgroup
-                found[key][1].append((thing.name, matrix, group))
+                found[key][1].append((thing.name, way, group))
             elif thing.type not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "LIGHT_PROBE", "SPEAKER"):
                 self.report.missing(f"objects of type {thing.type.lower()}", thing.name)
             if instance.is_instance is False and any(s.settings.type == "HAIR" for s in thing.particle_systems or ()):
@@ -150,9 +152,9 @@ class Export:
         for key in order:
             self._stand(*found[key])
 
-    def _lamp(self, thing, matrix):
+    def _lamp(self, thing, way):
         name = self._id(thing.name)
-        element = lamps.element(thing, matrix, name, self)
+        element = lamps.element(thing, way, name, self)
         if element is not None:
             self._body.append(element)
             self._join(name, thing.lightgroup)
@@ -174,10 +176,10 @@ class Export:
     def _stand(self, parts, places):
         """Puts a mesh where it stands: once as it is, else by instances of one group. Lamps stand each by itself."""
         dark = [part for part in parts if part[2] is None]
-        for name, matrix, group in places:
+        for name, way, group in places:
             for part in parts:
                 if part[2] is not None:
-                    self._shape(part, matrix, name, group)
+                    self._shape(part, way, name, group)
         if not dark:
             return
         if len(places) == 1:
@@ -189,21 +191,21 @@ class Export:
         for part in dark:
             body.add(self._element(part, None, None))
         self._body.append(body)
-        for _, matrix, _ in places:
+        for _, way, _ in places:
             instance = xml.Element("shape", type="instance")
-            self._body.append(instance.add(xml.transform(matrix), xml.Element("ref", id=name)))
+            self._body.append(instance.add(way.element(), xml.Element("ref", id=name)))
 
-    def _element(self, part, matrix, name):
+    def _element(self, part, way, name):
         file, bsdf, _ = part
         element = xml.Element("shape", type="ply", **({"id": name} if name else {}))
         element.add(xml.word("filename", file))
-        if matrix is not None:
-            element.add(xml.transform(matrix))
+        if way is not None:
+            element.add(way.element())
         return element.add(xml.Element("ref", id=bsdf))
 
-    def _shape(self, part, matrix, name, group):
+    def _shape(self, part, way, name, group):
         name = self._id(name)
-        element = self._element(part, matrix, name)
+        element = self._element(part, way, name)
         if part[2] is not None:
             lamp = self._id(name + "_light")
             light = xml.Element("emitter", type="area", id=lamp)

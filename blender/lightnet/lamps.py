@@ -44,15 +44,23 @@ def strength_of(lamp, report):
     return strength * numpy.array(node.inputs["Color"].default_value[:3]) * node.inputs["Strength"].default_value
 
 
-def point(lamp, matrix, name, strength, export):
+def standing(way, name):
+    """Where the middle of what has no sides stands."""
+    if way.keys is not None:
+        return way.element(lambda matrix: Matrix.Translation(matrix.translation))
+    place = way.now.translation
+    return xml.Element("point", name=name, x=place.x, y=place.y, z=place.z)
+
+
+def point(lamp, way, name, strength, export):
     intensity = strength / (4 * math.pi)
-    place, radius = matrix.translation, lamp.shadow_soft_size
+    place, radius = way.now.translation, lamp.shadow_soft_size
     if radius <= 0:
         return xml.Element("emitter", type="point", id=name).add(
-            xml.Element("point", name="position", x=place.x, y=place.y, z=place.z), xml.colour("intensity", intensity)
+            standing(way, "position"), xml.colour("intensity", intensity)
         )
     return xml.Element("shape", type="sphere").add(
-        xml.Element("point", name="center", x=place.x, y=place.y, z=place.z), xml.number("radius", radius),
+        standing(way, "center"), xml.number("radius", radius),
         *shining(name, intensity / (math.pi * radius**2), is_hidden(lamp, place, radius, export)),
     )
 
@@ -68,51 +76,53 @@ def slide(angle, blend, size=512):
     return numpy.repeat((t * t * (3 - 2 * t))[..., None], 4, axis=2).astype(numpy.float32)
 
 
-def spot(lamp, matrix, name, strength, export):
+def spot(lamp, way, name, strength, export):
     if lamp.shadow_soft_size > 0:
         export.report.approximate("spot lamps shine from a point, so that their shadows are sharp", lamp.name)
     angle = min(lamp.spot_size, math.radians(178))
     cutoff = math.degrees(angle / 2)
-    stood = Matrix.Translation(matrix.translation) @ matrix.to_3x3().normalized().to_4x4() @ half_turn
+    stood = lambda matrix: Matrix.Translation(matrix.translation) @ matrix.to_3x3().normalized().to_4x4() @ half_turn
     file = export.write_data(values.pfm(slide(angle, lamp.spot_blend)), "slide", ".pfm")
     picture = xml.Element("texture", type="bitmap", name="texture").add(xml.word("filename", file), xml.flag("raw"))
     return xml.Element("emitter", type="spot", id=name).add(
-        xml.transform(stood), xml.colour("intensity", strength / (4 * math.pi)),
+        way.element(stood), xml.colour("intensity", strength / (4 * math.pi)),
         xml.number("cutoff_angle", cutoff), xml.number("beam_width", cutoff), picture,
     )
 
 
-def sun(lamp, matrix, name, strength, export):
-    ahead = matrix.to_3x3().normalized() @ Matrix.Identity(3).col[2] * -1
+def sun(lamp, way, name, strength, export):
+    if way.keys is not None:
+        export.report.approximate("suns stand still while the shutter is open", lamp.name)
+    ahead = way.now.to_3x3().normalized() @ Matrix.Identity(3).col[2] * -1
     return xml.Element("emitter", type="directional", id=name).add(
         xml.Element("vector", name="direction", x=ahead.x, y=ahead.y, z=ahead.z),
         xml.colour("irradiance", strength), xml.number("angle", math.degrees(min(lamp.angle, 3.1))),
     )
 
 
-def area(lamp, matrix, name, strength, export):
+def area(lamp, way, name, strength, export):
     """Radiance is a quarter of the power over the area, as Cycles has it."""
     round_ = lamp.shape in ("DISK", "ELLIPSE")
     even = lamp.shape in ("SQUARE", "DISK")
     wide, high = lamp.size, lamp.size if even else lamp.size_y
-    x, y, _ = stretch_of(matrix)
+    x, y, _ = stretch_of(way.now)
     size = max(wide * x * high * y * (math.pi / 4 if round_ else 1), 1e-12)
     if lamp.spread < math.pi - 1e-3:
         export.report.approximate("area lamps shine to all sides, whatever their spread", lamp.name)
-    hidden = is_hidden(lamp, matrix.translation, math.hypot(wide * x, high * y) / 2, export)
-    stood = matrix @ Matrix.Diagonal((wide / 2, high / 2, 1, 1)) @ half_turn
+    hidden = is_hidden(lamp, way.now.translation, math.hypot(wide * x, high * y) / 2, export)
+    own = Matrix.Diagonal((wide / 2, high / 2, 1, 1)) @ half_turn
     return xml.Element("shape", type="disk" if round_ else "rectangle").add(
-        xml.transform(stood), *shining(name, strength / (4 * size), hidden)
+        way.element(lambda matrix: matrix @ own), *shining(name, strength / (4 * size), hidden)
     )
 
 
 makers = {"POINT": point, "SPOT": spot, "SUN": sun, "AREA": area}
 
 
-def element(thing, matrix, name, export):
+def element(thing, way, name, export):
     """Of an evaluated object that is a lamp; None: it is dark."""
     lamp = thing.data
     strength = strength_of(lamp, export.report)
     if not (strength > 0).any():
         return None
-    return makers[lamp.type](lamp, matrix, name, strength, export)
+    return makers[lamp.type](lamp, way, name, strength, export)

@@ -54,5 +54,15 @@ def colour(name, rgb):
 
 def transform(rows, name="to_world"):
     """Of 4 rows of 4 numbers."""
-    text = " ".join(repr(float(x)) for row in rows for x in row)
-    return Element("transform", name=name).add(Element("matrix", value=text))
+    return Element("transform", name=name).add(matrix(rows))
+
+
+def animation(keys, name="to_world"):
+    """Of pairs of a time in seconds and 4 rows of 4 numbers."""
+    return Element("animation", name=name).add(
+        *(Element("transform", time=repr(float(time))).add(matrix(rows)) for time, rows in keys)
+    )
+
+
+def matrix(rows):
+    return Element("matrix", value=" ".join(repr(float(x)) for row in rows for x in row))

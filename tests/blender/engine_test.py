@@ -110,6 +110,51 @@ def lightings(folder):
     assert max(pixels.max() for name, pixels in found.items() if name.endswith("Combined.R")) > 0
 
 
+def moving_lamps(folder):
+    """Lamps that move shine as the mean of what they do at moments (Cycles has them stand still)."""
+    for kind, more in (("AREA", {"size": 1}), ("POINT", {"shadow_soft_size": 0.3}), ("POINT", {"shadow_soft_size": 0}), ("SPOT", {})):
+        scene = prepared(64)
+        scenes.floor(), scenes.ball()
+        scenes.moved(scenes.lamp(kind, 400, (0, -2, 4), **more), (2, 0, 0))
+        combined = lambda: next(pixels for name, pixels in saved(scene, folder)[0].items() if name.endswith("Combined.R"))
+        scenes.open_shutter(1.0, "START")
+        blurred, stills = combined(), []
+        assert scene.frame_current == 1 and scene.frame_subframe == 0, (scene.frame_current, scene.frame_subframe)
+        scene.render.use_motion_blur = False
+        for part in (0.125, 0.375, 0.625, 0.875):
+            scene.frame_set(1, subframe=part)
+            stills.append(combined())
+        scene.frame_set(1)
+        wanted = numpy.mean(stills, axis=0)
+        off = (blurred.mean() - wanted.mean()) / wanted.mean()
+        apart = numpy.sqrt(((blurred - wanted) ** 2).mean()) / wanted.mean()
+        still = numpy.sqrt(((stills[0] - wanted) ** 2).mean()) / wanted.mean()
+        assert abs(off) < 0.02 and apart < 0.25 and apart < still / 2, (kind, more, off, apart, still)
+
+
+def changing_forms(_):
+    """Meshes that change their form in the shutter are named, and stand as in their frame."""
+    from lightnet import motion
+
+    class Clock:
+        def frame_set(self, frame, subframe):
+            bpy.context.scene.frame_set(frame, subframe=subframe)
+
+    scene = prepared()
+    thing = scenes.usual()
+    thing.shape_key_add(name="Basis")
+    key = thing.shape_key_add(name="wide")
+    key.data[0].co.x += 2
+    for frame, value in ((1, 0.0), (3, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    scene.frame_set(2)
+    scenes.open_shutter(0.5)
+    found = motion.look(Clock(), bpy.context.evaluated_depsgraph_get())
+    assert found.deforming == ["Sphere"] and not found.moves(), (found.deforming, found.keys)
+    assert scene.frame_current == 2 and scene.frame_subframe == 0
+
+
 def unsaid(_):
     """What a material can't say is named, with the node."""
     from lightnet.report import Report
@@ -152,7 +197,7 @@ code = 0
 bpy.ops.preferences.addon_install(filepath=sys.argv[-1], overwrite=True)
 bpy.ops.preferences.addon_enable(module="lightnet")
 with tempfile.TemporaryDirectory() as place:
-    for check in (passes, animation, lightings, unsaid, mistakes):
+    for check in (passes, animation, moving_lamps, changing_forms, lightings, unsaid, mistakes):
         try:
             check(place)
             print("PASSED", check.__name__)

@@ -4,7 +4,7 @@ import unittest
 
 import numpy
 
-from lightnet import graph, report, surfaces, values, xml
+from lightnet import graph, motion, report, surfaces, values, xml
 
 
 def picture(pixels, **more):
@@ -46,6 +46,18 @@ class Surfaces(unittest.TestCase):
         mixed = surfaces.mix(lamp, surfaces.Surface(surfaces.diffuse(values.constant(0.5))), values.constant(0.25))
         self.assertAlmostEqual(mixed.emission[0], 6)
         self.assertEqual(mixed.bsdf(self.put).attributes["type"], "blendbsdf")
+
+
+class Motion(unittest.TestCase):
+    def test_of_what_stands_still_is_no_animation(self):
+        still, goes = [[1, 0], [0, 1]], [[1, 2], [0, 1]]
+        moments = [{"a": still, "b": still, "c": still}, {"a": still, "b": goes}]
+        found = motion.keys_of([0, 1], moments)
+        self.assertEqual(found, {"b": [(0, still), (1, goes)]})
+        self.assertEqual(motion.Way(still, found.get("a")).element().tag, "transform")
+        lines = list(motion.Way(still, found["b"]).element().lines())
+        self.assertEqual(lines[0], '<animation name="to_world">')
+        self.assertEqual(lines[4:7], [' <transform time="1.0">', '  <matrix value="1.0 2.0 0.0 1.0"/>', " </transform>"])
 
 
 class Words(unittest.TestCase):

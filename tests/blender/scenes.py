@@ -14,6 +14,8 @@ def empty():
     scene = bpy.context.scene
     scene.world = bpy.data.worlds.new("World")
     scene.world.use_nodes = True
+    scene.render.use_motion_blur = False
+    scene.frame_set(1)
     background(0)
     data = bpy.data.cameras.new("Camera")
     camera = bpy.data.objects.new("Camera", data)
@@ -284,9 +286,59 @@ def orthographic_camera():
     data.type, data.ortho_scale, data.shift_x = "ORTHO", 6, 0.1
 
 
+def moved(thing, by=(0, 0, 0), turn=(0, 0, 0)):
+    """Goes and turns evenly, so far in one frame, and is where it was in frame 1."""
+    for name, rate in (("location", by), ("rotation_euler", turn)):
+        now = tuple(getattr(thing, name))
+        for frame in (-1, 3):
+            setattr(thing, name, [a + (frame - 1) * b for a, b in zip(now, rate)])
+            thing.keyframe_insert(name, frame=frame)
+    for curve in thing.animation_data.action.fcurves:
+        curve.extrapolation = "LINEAR"
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"
+    bpy.context.scene.frame_set(1)
+    return thing
+
+
+def open_shutter(frames, position="CENTER"):
+    scene = bpy.context.scene
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, frames
+    scene.cycles.motion_blur_position = position
+
+
+def moving_things():
+    """A ball that goes, with a child beside it, a cube that turns, and two instances that are carried."""
+    moved(usual(), (1.2, 0, 0), (0, 0, 0.6))
+    child = ball(material(Color=(0.2, 0.6, 0.3)), (0.8, -1.6, 0.2), 0.35)
+    child.parent = bpy.data.objects["Sphere"]
+    moved(cube(place=(-1.6, 1.5, 0.8)), turn=(0, 0, 1.8))
+    group = bpy.data.collections.new("group")
+    thing = ball(material(Color=(0.8, 0.7, 0.2)), (0, 0, 0.3), 0.3)
+    bpy.context.scene.collection.objects.unlink(thing)
+    group.objects.link(thing)
+    for x in (-1.5, 1.5):
+        place = bpy.data.objects.new("place", None)
+        place.instance_type, place.instance_collection, place.location = "COLLECTION", group, (x, -2, 0)
+        bpy.context.scene.collection.objects.link(place)
+        moved(place, (0.5, 0.5, 0))
+    open_shutter(0.8)
+
+
+def moving_from_its_frame_on():
+    moved(usual(None, cube), (0.8, 0, 0.3))
+    open_shutter(1.0, "START")
+
+
+def moving_camera():
+    usual(None, cube)
+    moved(bpy.context.scene.camera, (1.0, 0.5, 0), (0, 0.3, 0))
+    open_shutter(0.7, "END")
+
+
 all_scenes = [
     point_lamp, small_point_lamp, sun_lamp, spot_lamp, square_lamp, disk_lamp, shining_mesh, grey_sky,
     environment_picture, nishita_sky, matt, gloss, rough_glass, clear_glass, principled_plastic, principled_metal,
     principled_coat, mixed_shaders, half_transparent, image_texture, normal_map, many_instances, subdivision,
-    depth_of_field, shifted_camera, orthographic_camera,
+    depth_of_field, shifted_camera, orthographic_camera, moving_things, moving_from_its_frame_on, moving_camera,
 ]
