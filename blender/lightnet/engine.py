@@ -14,6 +14,7 @@ from .export import Export, plain
 from .picture import Picture
 
 cancelled = 130
+later_file, earlier_file = "scene-later.xml", "scene-earlier.xml"  # beside scene.xml, for vectors
 
 
 class Workplace:
@@ -35,11 +36,12 @@ class Workplace:
             cls.folder = None
 
 
-def facts_of(layer):
+def facts_of(scene, layer):
     """Names of passes that a view layer asks for and that are facts of surfaces or mattes."""
     wanted = {
         "Depth": layer.use_pass_z, "Normal": layer.use_pass_normal, "Position": layer.use_pass_position,
         "UV": layer.use_pass_uv, "DiffCol": layer.use_pass_diffuse_color,
+        "Vector": layer.use_pass_vector and not scene.render.use_motion_blur,
         "CryptoObject": layer.use_pass_cryptomatte_object, "CryptoMaterial": layer.use_pass_cryptomatte_material,
     }
     return [name for name, on in wanted.items() if on]
@@ -101,16 +103,45 @@ class LightnetEngine(bpy.types.RenderEngine):
         self.update_stats("", "exporting")
         where = program.path_of(viewport.chosen_program())
         moving = motion.look(self, depsgraph)
+        kept = self._write_frames_beside(depsgraph, folder) if has_vectors(scene, layer) else ()
         scene, layer = depsgraph.scene, depsgraph.view_layer
-        export = Export(folder, scene, depsgraph, layer, moving=moving)
+        settings = scene.lightnet
+        export = Export(folder, scene, depsgraph, layer, moving=moving, kept=kept)
         export.write()
         for line in export.report.lines():
             self.report({"WARNING"}, line)
         command = [where, *self._words(scene, layer, export, folder), *options_of(settings)]
-        self._groups = sorted(export.groups)
-        self._seen = None
+        self._groups, self._backwards, self._seen = sorted(export.groups), None, None
         print(f"lightnet: exported in {time.monotonic() - began:.2f} s")
+        for name in ("picture.npz", "picture.clean.npz", "back.npz"):
+            if os.path.exists(os.path.join(folder, name)):
+                os.remove(os.path.join(folder, name))
+        if has_vectors(scene, layer):
+            self._look_back(scene, where, folder)
         self._run(scene, layer, command, folder)
+
+    def _write_frames_beside(self, depsgraph, folder):
+        """The scene a frame later and a frame earlier. Names of their files."""
+        frame, kept = depsgraph.scene.frame_current + depsgraph.scene.frame_subframe, set()
+        try:
+            for by, name in ((1, later_file), (-1, earlier_file)):
+                motion.go_to(self, frame + by)
+                beside = Export(folder, depsgraph.scene, depsgraph, depsgraph.view_layer, kept=kept)
+                beside.write(name)
+                kept |= beside.files()
+        finally:
+            motion.go_to(self, frame)
+        return kept
+
+    def _look_back(self, scene, where, folder):
+        """How far things are from where they were a frame earlier: one more run."""
+        with open(os.path.join(folder, "back.lua"), "w", encoding="utf-8") as file:
+            file.write(graph.backwards_of(size_of(scene), scene.lightnet.samples, earlier_file))
+        other = {"picture.exr": "back.exr", "picture.npz": "back.npz"}
+        options = [other.get(word, word) for word in options_of(scene.lightnet)]
+        self._finish([where, "run", "back.lua", *options], folder, lambda: None)
+        if os.path.exists(os.path.join(folder, "back.npz")):  # else it was told to stop
+            self._backwards = Picture(os.path.join(folder, "back.npz")).shown["Vector"]
 
     def _words(self, scene, layer, export, folder):
         """The verb, and what it renders."""
@@ -120,17 +151,20 @@ class LightnetEngine(bpy.types.RenderEngine):
             words = ["render", "scene.xml", "--lighting", file, "--samples", str(settings.samples)]
             return words + (["--clean"] if settings.clean else []) + (["--alpha"] if scene.render.film_transparent else [])
         text = graph.text_of(
-            settings.lighting, size, settings.samples, round(settings.noise, 6), export.groups, facts_of(layer),
+            settings.lighting, size, settings.samples, round(settings.noise, 6), export.groups, facts_of(scene, layer),
             2 * max(1, layer.pass_cryptomatte_depth // 2), scene.render.film_transparent, settings.clean,
+            later_file if has_vectors(scene, layer) else None,
         )
         with open(os.path.join(folder, "graph.lua"), "w", encoding="utf-8") as file:
             file.write(text)
         return ["run", "graph.lua"]
 
     def _run(self, scene, layer, command, folder):
-        for name in ("picture.npz", "picture.clean.npz"):
-            if os.path.exists(os.path.join(folder, name)):
-                os.remove(os.path.join(folder, name))
+        self._finish(command, folder, lambda: self._show(scene, layer, folder))
+        self._show(scene, layer, folder, True)
+
+    def _finish(self, command, folder, show):
+        """Runs to the end, or until it is told to stop; calls show() meanwhile."""
         with program.Run(command, folder) as run:
             stopped = False
             while run.hear(0.1):
@@ -140,11 +174,10 @@ class LightnetEngine(bpy.types.RenderEngine):
                 if self.test_break() and not stopped:
                     stopped = True
                     run.cancel()
-                self._show(scene, layer, folder)
+                show()
             code = run.code()
         if code != 0 and not (code == cancelled and stopped):
             raise ValueError("\n".join(run.said[-12:]) or f"lightnet ended with code {code}")
-        self._show(scene, layer, folder, True)
 
     def _show(self, scene, layer, folder, last=False):
         """Hands the picture that there is to Blender, if it is a new one."""
@@ -162,6 +195,8 @@ class LightnetEngine(bpy.types.RenderEngine):
         if last and scene.lightnet.clean and os.path.exists(clean):
             pixels["Noisy Image"] = pixels["Combined"]
             pixels["Combined"] = Picture(clean).combined()
+        if "Vector" in pixels:
+            pixels["Vector"] = vectors(pixels["Vector"], self._backwards)
         height, width = found.beauty.shape[:2]
         result = self.begin_result(0, 0, width, height, layer=layer.name)
         passes = result.layers[0].passes
@@ -181,6 +216,18 @@ class LightnetEngine(bpy.types.RenderEngine):
             result.stamp_data_add_field(f"{key}/manifest", manifest)
 
 
+def has_vectors(scene, layer):
+    return scene.lightnet.lighting != "file" and "Vector" in facts_of(scene, layer)
+
+
+def vectors(later, earlier):
+    """Blender's, of how far things are on the picture later and earlier, in pixels to the right and upwards: to where they
+    were a frame earlier, and from where they are a frame later."""
+    if earlier is None:
+        earlier = numpy.zeros_like(later)
+    return numpy.concatenate((earlier[..., :2], -later[..., :2]), axis=-1)
+
+
 def filled(one, pixels, height, width):
     """The numbers of a pass of Blender's, whose row 0 is at the bottom; what there is no array of is 0."""
     whole = numpy.zeros((height, width, one.channels), numpy.float32)
@@ -194,10 +241,10 @@ def filled(one, pixels, height, width):
 def passes_of(scene, layer):
     """Name, channels, letters and kind of each pass beside the picture itself."""
     settings = scene.lightnet
-    letters = {"Depth": "Z", "Normal": "XYZ", "Position": "XYZ", "UV": "UVA", "DiffCol": "RGB"}
-    kinds = {"Depth": "VALUE", "Normal": "VECTOR", "Position": "VECTOR", "UV": "VECTOR", "DiffCol": "COLOR"}
+    letters = {"Depth": "Z", "Normal": "XYZ", "Position": "XYZ", "UV": "UVA", "DiffCol": "RGB", "Vector": "XYZW"}
+    kinds = {"Depth": "VALUE", "Normal": "VECTOR", "Position": "VECTOR", "UV": "VECTOR", "DiffCol": "COLOR", "Vector": "VECTOR"}
     yield from own_passes_of(scene, layer)
-    for name in facts_of(layer) if settings.lighting != "file" else ():
+    for name in facts_of(scene, layer) if settings.lighting != "file" else ():
         if name in letters:
             yield name, len(letters[name]), letters[name], kinds[name]
         else:

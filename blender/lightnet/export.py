@@ -19,13 +19,14 @@ def plain(name):
 class Export:
     """Writes into a folder that may have files of frames before: what is there by the same bytes stays."""
 
-    def __init__(self, folder, scene, depsgraph, view_layer=None, view=None, moving=None):
-        """view: what the picture is seen from; else the scene's camera. moving: a Motion; None: all stands still."""
+    def __init__(self, folder, scene, depsgraph, view_layer=None, view=None, moving=None, kept=()):
+        """view: what the picture is seen from; else the scene's camera. moving: a Motion; None: all stands still.
+        kept: files of other exports into the folder, which stay."""
         self.folder, self.scene, self.depsgraph = folder, scene, depsgraph
         self.report, self.motion = Report(), moving or motion.Motion()
         self.view = view or self._view_of_camera()
         self.groups = {}  # names of lamps by group
-        self._used, self._surfaces, self._parts, self._ids = set(), {}, {}, set()
+        self._used, self._surfaces, self._parts, self._ids = set(kept), {}, {}, set()
         self._known_groups = {group.name for group in view_layer.lightgroups} if view_layer else set()
         self._body, self._materials = [], []
         self._meshes = {}
@@ -65,6 +66,10 @@ class Export:
             os.replace(path + ".part", path)
         self._used.add(name)
         return name
+
+    def files(self):
+        """Names of all that the scene consists of."""
+        return self._used
 
     def may_see(self, middle, radius):
         """Does the camera perhaps see something of this ball?"""

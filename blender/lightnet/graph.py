@@ -19,15 +19,16 @@ soft = IrradianceCache {{ first, rays = 0, glossy_rays = 4, error = 0.04 }}
 light = Combine {{ direct, caustics, soft }}""",
 }
 by_groups = {"path", "direct", "guided"}
-facts = {"Depth": "depth", "Normal": "normal", "Position": "position", "UV": "uv", "DiffCol": "albedo"}
+facts = {"Depth": "depth", "Normal": "normal", "Position": "position", "UV": "uv", "DiffCol": "albedo", "Vector": "motion"}
 mattes = {"CryptoObject": "object", "CryptoMaterial": "material"}
 
 
-def text_of(lighting, size, samples, noise=0, groups=None, shown=(), ranks=6, transparent=False, clean=False):
-    """A graph of `scene.xml` beside it. groups: names of lamps by group; shown: names of passes."""
+def text_of(lighting, size, samples, noise=0, groups=None, shown=(), ranks=6, transparent=False, clean=False, later=None):
+    """A graph of `scene.xml` beside it. groups: names of lamps by group; shown: names of passes;
+    later: the file of the scene one frame later, which Vector needs."""
     groups = groups if lighting in by_groups else None
     learning = max(60000, size[0] * size[1] * samples // 24)  # as graphs/guided.lua
-    lines = ['scene = Scene { "scene.xml"' + (f", groups = {table(groups)}" if groups else "") + " }"]
+    lines = ['scene = Scene { "scene.xml"' + beside(later) + (f", groups = {table(groups)}" if groups else "") + " }"]
     on = "groups = true" if groups else ""
     lines.append(operators[lighting].format(groups=on, and_groups=f", {on}" if on else "", learning=learning))
     names = []
@@ -44,6 +45,20 @@ def text_of(lighting, size, samples, noise=0, groups=None, shown=(), ranks=6, tr
     film = f'film = {{ {size[0]}, {size[1]}, file = "picture.exr"{", clean = true" if clean else ""} }}'
     lines.append(f"image = RayTracer {{ light, scene = scene, {', '.join(more)}, {film} }}")
     return "\n".join(lines) + "\n"
+
+
+def backwards_of(size, samples, earlier):
+    """A graph of `scene.xml` that tells how far things on the picture are from where they were in another file."""
+    return f"""scene = Scene {{ "scene.xml"{beside(earlier)} }}
+light = DirectLighting {{}}
+Vector = SurfaceFact {{ of = "motion" }}
+image = RayTracer {{ light, scene = scene, samples = {samples}, show = {{ Vector }}, film = {{ {size[0]}, {size[1]}, file = "back.exr" }} }}
+"""
+
+
+def beside(file):
+    """What a scene says of the file with the next frame."""
+    return f', next = {{ file = "{file}", time = 0 }}' if file else ""
 
 
 def table(groups):

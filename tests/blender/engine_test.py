@@ -132,6 +132,33 @@ def moving_lamps(folder):
         assert abs(off) < 0.02 and apart < 0.25 and apart < still / 2, (kind, more, off, apart, still)
 
 
+def vectors(folder):
+    """Those of things that move, change their form, and are seen by a camera that moves, are Cycles' own."""
+    scene = prepared(64)
+    thing = scenes.moved(scenes.usual(), (0.5, 0, 0.2), (0, 0, 0.3))
+    scenes.moved(scene.camera, (0, 0.3, 0.1), (0, 0.05, 0))
+    bent = scenes.cube(place=(-1.5, 0, 1))
+    bent.shape_key_add(name="Basis")
+    key = bent.shape_key_add(name="high")
+    for point in key.data:
+        point.co.z *= 1.5
+    for frame, value in ((0, 0.0), (2, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    scene.frame_set(1)
+    scene.view_layers[0].use_pass_vector = True
+    found = {}
+    for engine in ("CYCLES", "LIGHTNET"):
+        scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = engine, 64, False
+        layers, _ = saved(scene, folder)
+        found[engine] = numpy.stack([next(p for n, p in layers.items() if n.endswith("Vector." + c)) for c in "XYZW"], -1)
+    assert scene.frame_current == 1
+    wanted, got = found["CYCLES"], found["LIGHTNET"]
+    off = abs(wanted - got).max(axis=-1)
+    assert abs(wanted[16, 24]).max() > 5
+    assert numpy.quantile(off, 0.8) < 0.01, numpy.quantile(off, 0.8)  # pixels; edges are mixed by other filters
+
+
 def changing_forms(_):
     """Meshes that change their form in the shutter are named, and stand as in their frame."""
     from lightnet import motion
@@ -197,7 +224,7 @@ code = 0
 bpy.ops.preferences.addon_install(filepath=sys.argv[-1], overwrite=True)
 bpy.ops.preferences.addon_enable(module="lightnet")
 with tempfile.TemporaryDirectory() as place:
-    for check in (passes, animation, moving_lamps, changing_forms, lightings, unsaid, mistakes):
+    for check in (passes, animation, moving_lamps, changing_forms, vectors, lightings, unsaid, mistakes):
         try:
             check(place)
             print("PASSED", check.__name__)

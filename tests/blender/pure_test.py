@@ -70,6 +70,12 @@ class Words(unittest.TestCase):
         self.assertIn('groups = { key = { "lamp\\"1" } }', graph.text_of("path", (8, 4), 16, groups=groups))
         self.assertNotIn("groups", graph.text_of("figure5", (8, 4), 16, groups=groups))
 
+    def test_of_graphs_name_frames_beside_for_vectors(self):
+        text = graph.text_of("path", (8, 4), 16, shown=["Vector"], later="b.xml")
+        self.assertIn('Scene { "scene.xml", next = { file = "b.xml", time = 0 } }', text)
+        self.assertIn('Vector = SurfaceFact { of = "motion" }', text)
+        self.assertIn('Scene { "scene.xml", next = { file = "a.xml", time = 0 } }', graph.backwards_of((8, 4), 16, "a.xml"))
+
     def test_of_reports_come_once(self):
         told = report.Report()
         for place in ("a", "b", "a", "c"):
