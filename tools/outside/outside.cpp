@@ -85,8 +85,8 @@ private:
             const auto grey = reading.column<float>(answers.size());
             for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = {grey[i], grey[i], grey[i]};
         } else {
-            const auto colours = reading.column<Rgb>(answers.size());
-            for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = colours[i];
+            const auto values = reading.column<Rgb>(answers.size());
+            for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = values[i];
         }
         reading.end();
     }
