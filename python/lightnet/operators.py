@@ -126,13 +126,14 @@ def _answer(function, line, count, inputs):
 
 
 class Served:
-    """Answers for the functions of this process, to the run that `environment` is handed to."""
+    """Answers for the functions of this process, to the run that `environment` and `options` are handed to."""
 
     def __init__(self, folder):
         path = os.path.join(folder, "functions")
         if len(os.fsencode(path)) > longest_path:
             raise Error(f"{path}: too long for the name of a socket; $TMPDIR may name a shorter folder")
         self.environment, self.failure = {"LIGHTNET_OUTSIDE": path}, None
+        self.options = {"cache": "none"}  # what nodes learn by a function goes into no other run: it may be another by then
         self._listener = socket.socket(socket.AF_UNIX)
         self._listener.bind(path)
         self._listener.listen(64)
@@ -178,7 +179,7 @@ class Served:
 class _Nobody:
     """What is served where a graph has no functions."""
 
-    environment, failure = {}, None
+    environment, options, failure = {}, {}, None
 
     def close(self):
         pass

@@ -42,7 +42,7 @@ def race(graphs, reference, seconds=60, seeds=3, **options):
         page, table = os.path.join(folder, "race.html"), os.path.join(folder, "race.csv")
         words += ["--reference", os.fspath(reference), "--seconds", repr(float(seconds)), "--seeds", str(seeds)]
         with contextlib.closing(operators.served(list(graphs.values()), folder, options)) as functions:
-            words += ["-o", page, "--csv", table, *program.flags(options)]
+            words += ["-o", page, "--csv", table, *program.flags({**options, **functions.options})]
             said = program.said("race", *words, environment=functions.environment)
         with open(table, encoding="utf-8", newline="") as file:
             rows = [_numbers(row) for row in csv.DictReader(file)]

@@ -39,7 +39,7 @@ class Run:
                     self._end()
 
     def _pictures(self, folder, functions):
-        self._start(folder, functions.environment)
+        self._start(folder, functions)
         shown = None
         for line in self._process.stderr:
             if not self._hear(line):
@@ -53,11 +53,11 @@ class Run:
             raise functions.failure or error_of(code, "\n".join(self.said))
         yield picture.in_folder(folder, "\n".join(self.said))
 
-    def _start(self, folder, environment):
+    def _start(self, folder, functions):
         words, text = graph.words_of(self.image, folder)
         exr = os.path.join(folder, "picture.exr")
         command = [program.path(), "run", *words, "-o", exr, "--npz", exr[:-3] + "npz", "--compression", "none"]
-        command += ["--forget", "--progress", "json", *program.flags(self.options)]
+        command += ["--forget", "--progress", "json", *program.flags({**self.options, **functions.options})]
         if self.every:
             command += ["--preview", repr(float(self.every))]
         with tempfile.TemporaryFile() as given:
@@ -66,7 +66,7 @@ class Run:
             with program.uninterrupted():
                 self._process = subprocess.Popen(
                     command, stdin=given, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                    start_new_session=True, env={**os.environ, **environment},
+                    start_new_session=True, env={**os.environ, **functions.environment},
                 )  # fmt: skip
         if self._cancelled:
             self.cancel()

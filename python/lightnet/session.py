@@ -30,13 +30,13 @@ class Session:
         try:
             self._functions = operators.served(image, folder, options)
             with program.uninterrupted():
-                self._process = self._start(image, folder, options, self._functions.environment)
+                self._process = self._start(image, folder, options, self._functions)
         except BaseException:
             self.close()
             raise
 
     @staticmethod
-    def _start(image, folder, options, environment):
+    def _start(image, folder, options, functions):
         words, text = graph.words_of(image, folder)
         if text is not None:
             words = [os.path.join(folder, "graph.json")]
@@ -46,8 +46,8 @@ class Session:
         command = [program.path(), "session", *words, "-o", exr, "--npz", exr[:-3] + "npz", "--compression", "none"]
         with open(os.path.join(folder, "said"), "w", encoding="utf-8") as said:
             return subprocess.Popen(
-                [*command, "--json", *program.flags(options)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                stderr=said, text=True, start_new_session=True, env={**os.environ, **environment},
+                [*command, "--json", *program.flags({**options, **functions.options})], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                stderr=said, text=True, start_new_session=True, env={**os.environ, **functions.environment},
             )  # fmt: skip
 
     def picture(self):

@@ -469,6 +469,20 @@ class Operators(InFolder):
         go.set()
         self.assertEqual(folders(), [])
 
+    def test_leaves_nothing_in_the_cache(self):
+        level = 0.25
+
+        @ln.operator
+        def grey(q, ask):
+            return level
+
+        def cached():
+            light = ln.IrradianceCache(grey(name="grey"), rays=16, error=0.5, name="cache")
+            return self.picture(light).layers["cache"]
+
+        first, level = cached(), 0.5
+        self.assertFalse(numpy.array_equal(first, cached()), "what was learnt of the function as it was before")
+
     def test_stays_in_this_process(self):
         for options in ({"local_workers": 1}, {"hosts": "a,b"}, {"ssh": "a"}):
             with self.assertRaisesRegex(ln.UserError, "which other processes can't ask"):
