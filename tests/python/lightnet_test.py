@@ -470,18 +470,10 @@ class Operators(InFolder):
         self.assertEqual(folders(), [])
 
     def test_leaves_nothing_in_the_cache(self):
-        level = 0.25
-
-        @ln.operator
-        def grey(q, ask):
-            return level
-
-        def cached():
-            light = ln.IrradianceCache(grey(name="grey"), rays=16, error=0.5, name="cache")
-            return self.picture(light).layers["cache"]
-
-        first, level = cached(), 0.5
-        self.assertFalse(numpy.array_equal(first, cached()), "what was learnt of the function as it was before")
+        cache = self.folder / "cache"
+        for light, kept in ((ln.operator(lambda q, ask: 0.5)(), False), (ln.DirectLighting(), True)):
+            self.picture(ln.IrradianceCache(light, rays=16, error=0.5), cache=cache)
+            self.assertEqual(cache.exists(), kept)
 
     def test_stays_in_this_process(self):
         for options in ({"local_workers": 1}, {"hosts": "a,b"}, {"ssh": "a"}):
