@@ -5,7 +5,7 @@ import re
 
 from mathutils import Matrix
 
-from . import camera, lamps, meshes, motion, shaders, values, world, xml
+from . import camera, hair, lamps, meshes, motion, shaders, values, world, xml
 from .report import Report
 
 with_mesh = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -137,23 +137,27 @@ class Export:
         found, order = {}, []
         for instance in self.depsgraph.object_instances:
             thing = instance.object
+            way = self.motion.way(motion.key_of(instance), instance.matrix_world.copy())
+            for system in hair.systems_of(thing) if instance.show_particles else ():
+                key = "HAIR", thing.name_full, system.name
+                if key not in found:
+                    found[key] = self._hair(thing, system), []
+                    order.append(key)
+                found[key][1].append((f"{thing.name} {system.name}", way, ""))
             if not instance.show_self:
                 continue
-            way = self.motion.way(motion.key_of(instance), instance.matrix_world.copy())
             if thing.type == "LIGHT":
                 self._lamp(thing, way)
-            elif thing.type in with_mesh:
+            elif thing.type in with_mesh or thing.type == "CURVES":
                 looks = tuple(slot.material.name_full if slot.material else None for slot in thing.material_slots)
                 key = thing.type, thing.data.as_pointer(), looks
                 if key not in found:
-                    found[key] = self._mesh(thing), []
+                    found[key] = self._curves(thing) if thing.type == "CURVES" else self._mesh(thing), []
                     order.append(key)
                 group = thing.lightgroup
                 found[key][1].append((thing.name, way, group))
             elif thing.type not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "LIGHT_PROBE", "SPEAKER"):
                 self.report.missing(f"objects of type {thing.type.lower()}", thing.name)
-            if instance.is_instance is False and any(s.settings.type == "HAIR" for s in thing.particle_systems or ()):
-                self.report.missing("hairs of particles", thing.name)
         for key in order:
             self._stand(*found[key])
 
@@ -178,6 +182,25 @@ class Export:
         thing.to_mesh_clear()
         return parts
 
+    def _hair(self, thing, system):
+        """Particles of an object that are hair; by the object itself, where it is an instance."""
+        slots, rendered = [slot.material for slot in thing.material_slots], self.depsgraph.mode == "RENDER"
+        data = hair.of_particles(thing.original.evaluated_get(self.depsgraph), system, rendered)
+        return self._strands(data, hair.slot_of_particles(system, slots), thing)
+
+    def _curves(self, thing):
+        slots = [slot.material for slot in thing.material_slots]
+        return self._strands(hair.of_curves(thing.data), slots[0] if slots else None, thing)
+
+    def _strands(self, data, material, thing):
+        """A part, if there is any hair."""
+        if not data:
+            return []
+        bsdf, light = self._surface(material)
+        if light is not None:
+            self.report.missing("lights of hair", thing.name)
+        return [(self.write_data(data, "mesh", ".strands"), bsdf, None)]
+
     def _stand(self, parts, places):
         """Puts a mesh where it stands: once as it is, else by instances of one group. Lamps stand each by itself."""
         dark = [part for part in parts if part[2] is None]
@@ -187,7 +210,7 @@ class Export:
                     self._shape(part, way, name, group)
         if not dark:
             return
-        if len(places) == 1:
+        if len(places) == 1 and not any(is_hair(part) for part in dark):  # radii are those of the file, but in groups
             for part in dark:
                 self._shape(part, places[0][1], places[0][0], "")
             return
@@ -202,7 +225,8 @@ class Export:
 
     def _element(self, part, way, name):
         file, bsdf, _ = part
-        element = xml.Element("shape", type="ply", **({"id": name} if name else {}))
+        kind = "bsplinecurve" if is_hair(part) else "ply"
+        element = xml.Element("shape", type=kind, **({"id": name} if name else {}))
         element.add(xml.word("filename", file))
         if way is not None:
             element.add(way.element())
@@ -222,6 +246,10 @@ class Export:
 colours = {
     "reflectance", "transmittance", "specular_reflectance", "specular_transmittance", "base_color", "radiance",
 }
+
+
+def is_hair(part):
+    return part[0].endswith(".strands")
 
 
 def black(_):

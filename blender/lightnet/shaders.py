@@ -1,8 +1,10 @@
 """Materials of Blender: what each shader of a node tree becomes."""
 
+import math
+
 import numpy
 
-from . import nodes, surfaces, values
+from . import nodes, strands, surfaces, values
 from .surfaces import Surface
 
 
@@ -192,7 +194,39 @@ def principled(shaders, node, place):
     return Surface(shaders.dressed(node, bsdf), values.combined(lambda a: a.clip(0, 1), take("Alpha")), emission_of(shaders, node))
 
 
+def absorption_of(shaders, node, around):
+    take = lambda name: values.pixels_of(values.mean(shaders.input(node, name)))[:3]
+    one = lambda name: values.number(shaders.input(node, name))
+    if node.parametrization == "ABSORPTION":
+        return take("Absorption Coefficient")
+    if node.parametrization == "COLOR":
+        return strands.absorption_of_colour(take("Color"), around)
+    tint = strands.absorption_of_colour(take("Tint"), around)
+    return strands.absorption_of_melanin(one("Melanin"), one("Melanin Redness")) + tint
+
+
+def hair(shaders, node, place):
+    """Chiang et al. 2016, as in Cycles. Its numbers are the same along each strand."""
+    one = lambda name: values.number(shaders.input(node, name))
+    for name, what in (("Coat", "the coat of hair is left out"), ("Random Color", "all strands of hair have the same colour"),
+                       ("Random Roughness", "all strands of hair are as rough")):
+        if node.inputs[name].is_linked or node.inputs[name].default_value > 0:
+            shaders.report.approximate(what, place)
+    around = one("Radial Roughness")
+    return Surface(surfaces.hair(
+        [float(part) for part in absorption_of(shaders, node, around)], one("Roughness"), around, max(one("IOR"), 1.001),
+        math.degrees(one("Offset")),
+    ))
+
+
+def matt_hair(shaders, node, place):
+    shaders.report.approximate("the shader Hair BSDF is taken as matt", place)
+    return Surface(surfaces.diffuse(shaders.input(node, "Color")))
+
+
 makers = {
+    "BSDF_HAIR_PRINCIPLED": hair,
+    "BSDF_HAIR": matt_hair,
     "BSDF_PRINCIPLED": principled,
     "BSDF_DIFFUSE": diffuse,
     "BSDF_GLOSSY": glossy,

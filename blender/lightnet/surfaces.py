@@ -125,6 +125,16 @@ def coloured_window(colour):
     )
 
 
+def hair(absorption, along, around, ior, tilt):
+    """absorption: by radius; roughness along and around the hair; tilt of its scales, degrees."""
+    most = max(*absorption, 1e-6)
+    return lambda _: xml.Element("bsdf", type="hair").add(
+        xml.colour("sigma_a", [part / most for part in absorption]), xml.number("scale", most),
+        xml.number("longitudinal_roughness", along), xml.number("azimuthal_roughness", around),
+        xml.number("scale_tilt", tilt), xml.number("int_ior", ior), xml.number("ext_ior", 1),
+    )
+
+
 def principled(parts):
     """Of values by the names that Mitsuba gives them; those that are None stay as they are there."""
 

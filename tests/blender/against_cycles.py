@@ -34,6 +34,7 @@ def rendered(engine, path):
     scene.cycles.sample_clamp_indirect = scene.cycles.blur_glossy = 0
     scene.cycles.max_bounces = scene.cycles.diffuse_bounces = scene.cycles.glossy_bounces = 32
     scene.cycles.transmission_bounces = scene.cycles.transparent_max_bounces = 32
+    scene.cycles_curves.shape = "THICK"  # round, as lightnet's; else they are ribbons
     scene.lightnet.samples = samples["LIGHTNET"]
     bpy.ops.render.render(write_still=True)
     image = bpy.data.images.load(path)

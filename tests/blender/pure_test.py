@@ -4,7 +4,7 @@ import unittest
 
 import numpy
 
-from lightnet import graph, motion, report, surfaces, values, xml
+from lightnet import graph, motion, report, strands, surfaces, values, xml
 
 
 def picture(pixels, **more):
@@ -58,6 +58,30 @@ class Motion(unittest.TestCase):
         lines = list(motion.Way(still, found["b"]).element().lines())
         self.assertEqual(lines[0], '<animation name="to_world">')
         self.assertEqual(lines[4:7], [' <transform time="1.0">', '  <matrix value="1.0 2.0 0.0 1.0"/>', " </transform>"])
+
+
+class Strands(unittest.TestCase):
+    def test_go_through_their_points(self):
+        points = numpy.random.default_rng(1).normal(size=(3, 5, 4))
+        knots = strands.through(points)
+        numpy.testing.assert_allclose((knots[:, :-2] + 4 * knots[:, 1:-1] + knots[:, 2:]) / 6, points, atol=1e-12)
+
+    def test_without_length_are_left_out(self):
+        points = numpy.array([[(0, 0, 0, 1), (0, 0, 2, 1)], [(3, 0, 0, 1), (3, 0, 0, 1)]], float)
+        text = strands.text([points]).decode()
+        self.assertEqual(text.strip().split("\n"), ["0 0 -1 1", "0 0 0 1", "0 0 1 1", "0 0 2 1", "0 0 3 1"])
+
+    def test_are_thinner_to_their_ends(self):
+        part = numpy.array([[0.0, 0.5, 1.0]])
+        numpy.testing.assert_allclose(strands.radii(part, 1, 0.2, 0, False), [[1, 0.6, 0.2]])
+        numpy.testing.assert_allclose(strands.radii(part, 1, 0.2, 0.5, True), [[1, 0.4, 0]])
+        numpy.testing.assert_allclose(strands.along(numpy.array([[(0, 0, 0), (3, 4, 0), (3, 4, 15)]])), [[0, 0.25, 1]])
+
+    def test_are_dark_by_pigments_and_by_colour(self):
+        numpy.testing.assert_allclose(strands.absorption_of_melanin(0, 0.5), [0, 0, 0])
+        numpy.testing.assert_allclose(strands.absorption_of_melanin(1 - numpy.exp(-2), 0), [1.012, 1.682, 3.306])
+        found = strands.absorption_of_colour(numpy.array((1.0, 0.5, 0.1)), 0.3)
+        numpy.testing.assert_allclose(found, [0, 0.0138565, 0.1529095], rtol=1e-5)  # (ln c / 5.88841)²
 
 
 class Words(unittest.TestCase):

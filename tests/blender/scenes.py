@@ -40,8 +40,8 @@ def material(shader="ShaderNodeBsdfDiffuse", **inputs):
     output, node = tree.nodes.new("ShaderNodeOutputMaterial"), tree.nodes.new(shader)
     tree.links.new(node.outputs[0], output.inputs["Surface"])
     for name, value in inputs.items():
-        if name == "distribution":
-            node.distribution = value
+        if name in ("distribution", "parametrization"):
+            setattr(node, name, value)
         else:
             socket = node.inputs[name.replace("_", " ")]
             socket.default_value = (*value, 1) if isinstance(value, tuple) and socket.type == "RGBA" else value
@@ -336,9 +336,61 @@ def moving_camera():
     open_shutter(0.7, "END")
 
 
+def furry(made, curved=0.15):
+    """A ball of another material with hair of particles that are bent."""
+    background(0.6), floor(), lamp("AREA", 500, size=2)
+    thing = ball(material(Color=(0.3, 0.25, 0.2)), radius=0.7)
+    thing.data.materials.append(made)
+    system = thing.modifiers.new("fur", "PARTICLE_SYSTEM").particle_system
+    settings = system.settings
+    settings.type, settings.count, settings.hair_length, settings.render_step = "HAIR", 700, 0.6, 3
+    settings.material, settings.radius_scale, settings.root_radius, settings.tip_radius = 2, 0.06, 1.0, 0.3
+    settings.kink, settings.kink_amplitude, settings.child_type = "NO", 0, "NONE"
+    settings.tangent_factor = curved
+    return thing
+
+
+def hair_by_melanin():
+    furry(material("ShaderNodeBsdfHairPrincipled", parametrization="MELANIN", Melanin=0.5, Melanin_Redness=0.6))
+
+
+def hair_by_colour():
+    thing = furry(material("ShaderNodeBsdfHairPrincipled", parametrization="COLOR", Color=(0.6, 0.25, 0.1), Radial_Roughness=0.5))
+    thing.scale = (1.5, 1.5, 1)
+
+
+def instances_of_hair():
+    furry(material("ShaderNodeBsdfHairPrincipled", parametrization="ABSORPTION", Absorption_Coefficient=(0.2, 0.5, 1.2), Roughness=0.5))
+    thing = bpy.context.object
+    group = bpy.data.collections.new("group")
+    bpy.context.scene.collection.objects.unlink(thing)
+    group.objects.link(thing)
+    for x, size in ((-1, 0.8), (1, 1.3)):
+        place = bpy.data.objects.new("place", None)
+        place.instance_type, place.instance_collection, place.location, place.scale = "COLLECTION", group, (x, 0, 0), 3 * [size]
+        bpy.context.scene.collection.objects.link(place)
+
+
+def matt_hair():
+    furry(material(Color=(0.7, 0.5, 0.2)))
+
+
+def hair_as_curves():
+    thing = furry(material("ShaderNodeBsdfHairPrincipled", parametrization="MELANIN", Melanin=0.3))
+    bpy.ops.object.select_all(action="DESELECT")
+    thing.select_set(True)
+    bpy.context.view_layer.objects.active = thing
+    bpy.ops.curves.convert_from_particle_system()
+    for curves in (one for one in bpy.data.objects if one.type == "CURVES"):
+        curves.data.materials.clear()
+        curves.data.materials.append(thing.data.materials[1])
+    thing.modifiers.clear()
+
+
 all_scenes = [
     point_lamp, small_point_lamp, sun_lamp, spot_lamp, square_lamp, disk_lamp, shining_mesh, grey_sky,
     environment_picture, nishita_sky, matt, gloss, rough_glass, clear_glass, principled_plastic, principled_metal,
     principled_coat, mixed_shaders, half_transparent, image_texture, normal_map, many_instances, subdivision,
     depth_of_field, shifted_camera, orthographic_camera, moving_things, moving_from_its_frame_on, moving_camera,
+    hair_by_melanin, hair_by_colour, instances_of_hair, matt_hair, hair_as_curves,
 ]
