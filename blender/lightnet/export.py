@@ -40,7 +40,9 @@ class Export:
     def write(self, name="scene.xml"):
         """Writes all of it, and removes what is no longer used."""
         root = xml.Element("scene", version="3.0.0")
-        root.add(camera.sensor(self.view, self.report, self.motion.moves()))
+        sensor = camera.sensor(self.view, self.report, self.motion.moves())
+        around = self._medium(world.volume_of(self.depsgraph.scene.world, self.report), "around")
+        root.add(sensor.add(around and xml.Element("ref", name="medium", id=around)))
         self._gather()
         for name in self.motion.deforming:
             self.report.approximate("meshes and lenses that change while the shutter is open are as in their frame", name)
@@ -119,7 +121,7 @@ class Export:
             self.groups.setdefault(plain(group), []).append(lamp)
 
     def _surface(self, material):
-        """The id of a material's bsdf, and its light; written once."""
+        """The id of a material's bsdf, its light, and the id of what fills it; written once."""
         key = material.name_full if material else None
         if key not in self._surfaces:
             surface = shaders.surface_of(material.original if material else None, self.report)
@@ -129,8 +131,17 @@ class Export:
             element.attributes["id"] = self._id(material.name if material else "no material")
             self._materials.append(element)
             light = None if values.is_black(surface.emission) else surface.emission
-            self._surfaces[key] = element.attributes["id"], light
+            medium = self._medium(shaders.volume_of(material.original if material else None, self.report), "inside")
+            self._surfaces[key] = element.attributes["id"], light, medium
         return self._surfaces[key]
+
+    def _medium(self, volume, name):
+        """The id of what fills a space; None: nothing."""
+        if volume is None:
+            return None
+        name = self._id(name)
+        self._materials.append(volume.element(name))
+        return name
 
     def _gather(self):
         """Things in the order in which Blender has them; those with one mesh and one look become instances."""
@@ -157,7 +168,8 @@ class Export:
                 group = thing.lightgroup
                 found[key][1].append((thing.name, way, group))
             elif thing.type not in ("EMPTY", "CAMERA", "ARMATURE", "LATTICE", "LIGHT_PROBE", "SPEAKER"):
-                self.report.missing(f"objects of type {thing.type.lower()}", thing.name)
+                what = "grids of volumes" if thing.type == "VOLUME" else f"objects of type {thing.type.lower()}"
+                self.report.missing(what, thing.name)
         for key in order:
             self._stand(*found[key])
 
@@ -196,18 +208,18 @@ class Export:
         """A part, if there is any hair."""
         if not data:
             return []
-        bsdf, light = self._surface(material)
+        bsdf, light, _ = self._surface(material)
         if light is not None:
             self.report.missing("lights of hair", thing.name)
-        return [(self.write_data(data, "mesh", ".strands"), bsdf, None)]
+        return [(self.write_data(data, "mesh", ".strands"), bsdf, None, None)]
 
     def _stand(self, parts, places):
-        """Puts a mesh where it stands: once as it is, else by instances of one group. Lamps stand each by itself."""
-        dark = [part for part in parts if part[2] is None]
+        """Puts a mesh where it stands: once as it is, else by instances of one group. Lamps and volumes stand each by itself."""
+        alone = [part for part in parts if part[2] is not None or part[3] is not None]
+        dark = [part for part in parts if part not in alone]
         for name, way, group in places:
-            for part in parts:
-                if part[2] is not None:
-                    self._shape(part, way, name, group)
+            for part in alone:
+                self._shape(part, way, name, group)
         if not dark:
             return
         if len(places) == 1 and not any(is_hair(part) for part in dark):  # radii are those of the file, but in groups
@@ -224,13 +236,14 @@ class Export:
             self._body.append(instance.add(way.element(), xml.Element("ref", id=name)))
 
     def _element(self, part, way, name):
-        file, bsdf, _ = part
+        file, bsdf, _, medium = part
         kind = "bsplinecurve" if is_hair(part) else "ply"
         element = xml.Element("shape", type=kind, **({"id": name} if name else {}))
         element.add(xml.word("filename", file))
         if way is not None:
             element.add(way.element())
-        return element.add(xml.Element("ref", id=bsdf))
+        element.add(xml.Element("ref", id=bsdf))
+        return element.add(medium and xml.Element("ref", name="interior", id=medium))
 
     def _shape(self, part, way, name, group):
         name = self._id(name)

@@ -4,7 +4,7 @@ import math
 
 import numpy
 
-from . import nodes, strands, surfaces, values
+from . import fillings, nodes, strands, surfaces, values
 from .surfaces import Surface
 
 
@@ -247,6 +247,13 @@ def output_of(tree):
     return tree.get_output_node("CYCLES") or tree.get_output_node("ALL")
 
 
+def volume_of(material, report):
+    """What fills meshes of a material; None: nothing."""
+    if material is None or not material.use_nodes or material.node_tree is None:
+        return None
+    return fillings.of_output(output_of(material.node_tree), material.name, report)
+
+
 def surface_of(material, report):
     """Of a material; None: what surfaces without one look like."""
     if material is None:
@@ -257,7 +264,8 @@ def surface_of(material, report):
     if output is None:
         return Surface()
     shaders = Shaders(material.name, report)
-    for name in ("Volume", "Displacement"):
-        if output.inputs[name].is_linked:
-            report.missing(name.lower() + "s", material.name)
+    if output.inputs["Displacement"].is_linked:
+        report.missing("displacements", material.name)
+    if output.inputs["Volume"].is_linked and not output.inputs["Surface"].is_linked:
+        return Surface(None, values.constant(0))
     return shaders.shader(output.inputs["Surface"])

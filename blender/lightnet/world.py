@@ -9,11 +9,18 @@ import bpy
 import numpy
 from mathutils import Euler, Matrix
 
-from . import nodes, shaders, values, xml
+from . import fillings, nodes, shaders, values, xml
 
 # Where Mitsuba's directions of an environment are in Blender: its middle, +z, is +x here, and up is +z.
 base = Matrix(((0, 0, 1, 0), (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
 name = "environment"
+
+
+def volume_of(world, report):
+    """What fills the space around all; None: nothing."""
+    if world is None or not world.use_nodes or world.node_tree is None:
+        return None
+    return fillings.of_output(shaders.output_of(world.node_tree), world.name, report)
 
 
 def elements(scene, export):
@@ -26,8 +33,6 @@ def elements(scene, export):
     output = shaders.output_of(world.node_tree)
     if output is None or not output.inputs["Surface"].is_linked:
         return []
-    if output.inputs["Volume"].is_linked:
-        export.report.missing("volumes", world.name)
     evaluator = nodes.Evaluator(world.name, export.report)
     found = evaluator.source(output.inputs["Surface"])
     node = found.node

@@ -16,6 +16,7 @@ import numpy
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [here, os.path.join(here, "../../blender")]
 import scenes  # noqa: E402
+import volume_scenes  # noqa: E402
 
 size, block = 64, 8
 samples = {"CYCLES": 512, "LIGHTNET": 256}
@@ -34,6 +35,7 @@ def rendered(engine, path):
     scene.cycles.sample_clamp_indirect = scene.cycles.blur_glossy = 0
     scene.cycles.max_bounces = scene.cycles.diffuse_bounces = scene.cycles.glossy_bounces = 32
     scene.cycles.transmission_bounces = scene.cycles.transparent_max_bounces = 32
+    scene.cycles.volume_bounces = 32
     scene.cycles_curves.shape = "THICK"  # round, as lightnet's; else they are ribbons
     scene.lightnet.samples = samples["LIGHTNET"]
     bpy.ops.render.render(write_still=True)
@@ -79,7 +81,7 @@ def main():
     addon_utils.enable("lightnet", default_set=True)
     worst, pairs = 0, []
     with tempfile.TemporaryDirectory() as folder:
-        for make in scenes.all_scenes:
+        for make in [*scenes.all_scenes, *volume_scenes.all_scenes]:
             if chosen and make.__name__ not in chosen:
                 continue
             scenes.empty()

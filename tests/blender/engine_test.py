@@ -14,6 +14,7 @@ import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scenes  # noqa: E402
+import volume_scenes  # noqa: E402
 
 
 def folders():
@@ -195,6 +196,26 @@ def unsaid(_):
     assert list(report.lines()) == ["the node Noise Texture is taken as a mean (Wall: Noise Texture)"], list(report.lines())
 
 
+def unsaid_volumes(_):
+    """Grids are named, and so is what changes inside of a volume."""
+    from lightnet.export import Export
+
+    scene = prepared()
+    scenes.usual(volume_scenes.filled("ShaderNodeVolumePrincipled"))
+    made = bpy.data.objects["Sphere"].data.materials[0]
+    noise, volume = scenes.add_node(made, "ShaderNodeTexNoise"), made.node_tree.nodes["Principled Volume"]
+    scenes.link(made, noise, "Fac", volume, "Density")
+    volume.inputs["Blackbody Intensity"].default_value = 1
+    grid = bpy.data.objects.new("Cloud", bpy.data.volumes.new("Cloud"))
+    scene.collection.objects.link(grid)
+    with tempfile.TemporaryDirectory() as folder:
+        export = Export(folder, scene, bpy.context.evaluated_depsgraph_get(), bpy.context.view_layer)
+        export.write()
+    told = "; ".join(export.report.lines())
+    for words in ("grids of volumes are left out (Cloud)", "blackbodies in volumes are left out", "Noise Texture is taken as a mean"):
+        assert words in told, told
+
+
 def said(wanted):
     """Whether rendering fails, with these words."""
     try:
@@ -224,7 +245,7 @@ code = 0
 bpy.ops.preferences.addon_install(filepath=sys.argv[-1], overwrite=True)
 bpy.ops.preferences.addon_enable(module="lightnet")
 with tempfile.TemporaryDirectory() as place:
-    for check in (passes, animation, moving_lamps, changing_forms, vectors, lightings, unsaid, mistakes):
+    for check in (passes, animation, moving_lamps, changing_forms, vectors, lightings, unsaid, unsaid_volumes, mistakes):
         try:
             check(place)
             print("PASSED", check.__name__)

@@ -4,7 +4,7 @@ import unittest
 
 import numpy
 
-from lightnet import graph, motion, report, strands, surfaces, values, xml
+from lightnet import graph, motion, report, strands, surfaces, values, volumes, xml
 
 
 def picture(pixels, **more):
@@ -82,6 +82,28 @@ class Strands(unittest.TestCase):
         numpy.testing.assert_allclose(strands.absorption_of_melanin(1 - numpy.exp(-2), 0), [1.012, 1.682, 3.306])
         found = strands.absorption_of_colour(numpy.array((1.0, 0.5, 0.1)), 0.3)
         numpy.testing.assert_allclose(found, [0, 0.0138565, 0.1529095], rtol=1e-5)  # (ln c / 5.88841)²
+
+
+class Volumes(unittest.TestCase):
+    def test_scatter_by_the_mean_cosine_of_their_parts(self):
+        white = numpy.ones(3)
+        both = volumes.scatter(white, 1.0, 0.8) + volumes.scatter(white, 3.0, 0.0)
+        self.assertAlmostEqual(both.cosine(), 0.2)
+        self.assertTrue(volumes.absorb(white, 5.0).is_empty())
+
+    def test_of_principled_absorb_what_does_not_scatter(self):
+        grey = numpy.full(3, 0.5)
+        found = volumes.principled(grey, 2.0, 0.0, numpy.array((0, 0.25, 1)), numpy.zeros(3))
+        numpy.testing.assert_allclose(found.scattering, [1, 1, 1])
+        numpy.testing.assert_allclose(found.absorption, [1, 0.5, 0])
+
+    def test_are_written_as_colours_up_to_one_and_a_scale(self):
+        lines = "\n".join(volumes.Volume(numpy.array((1.0, 2, 0)), numpy.array((3.0, 0, 0))).element("smoke").lines())
+        self.assertIn('name="sigma_t" value="1.0 0.5 0.0"', lines)
+        self.assertIn('name="scale" value="4.0"', lines)
+        self.assertIn('name="albedo" value="0.25 1.0 0.0"', lines)
+        self.assertNotIn("phase", lines)
+        self.assertNotIn("emission", lines)
 
 
 class Words(unittest.TestCase):
