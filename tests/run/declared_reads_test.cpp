@@ -97,7 +97,7 @@ TEST_P(DeclaredReads, MayDependOnTheNode) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WhenItLooks, DeclaredReads, testing::Values("made", "prepared", "asked"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& when) { return std::string(when.param); });
 
 TEST(ShippedKinds, DeclareWhatTheyRead) {
     for (const Kind& kind : standard_nodes()) EXPECT_TRUE(kind.reads) << kind.name;
