@@ -7,16 +7,19 @@ namespace lightnet {
 
 bool Coordinator::prepare(std::chrono::nanoseconds most) {
     const auto end = std::chrono::steady_clock::now() + most;
-    while (true) {
-        // What has arrived counts, however late it is.
-        while (receive()) {
-        }
+    std::chrono::nanoseconds left = most;
+    do {
         lead_.advance();
         if (lead_.state().all_done()) return true;
-        const auto left = end - std::chrono::steady_clock::now();
-        if (left.count() <= 0) return false;
-        if (!lead_.render(left)) wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(20)));
-    }
+        if (!lead_.render(left)) {
+            wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(20)));
+            // Nobody else waits for any of it: no master renders.
+            while (receive()) {
+            }
+        }
+        left = end - std::chrono::steady_clock::now();
+    } while (left.count() > 0);
+    return false;
 }
 
 bool Coordinator::ask(const PlaceAt& to, Message& message) {
