@@ -2,7 +2,6 @@
 
 import os
 import shutil
-import tempfile
 import time
 
 import bpy
@@ -25,8 +24,7 @@ class Workplace:
     @classmethod
     def path(cls):
         if cls.folder is None:
-            memory = "/dev/shm"
-            cls.folder = tempfile.mkdtemp(prefix=f"lightnet-{os.getpid()}-", dir=memory if os.access(memory, os.W_OK) else None)
+            cls.folder = program.new_folder()
         return cls.folder
 
     @classmethod
@@ -272,15 +270,7 @@ def own_passes_of(scene, layer):
 
 def options_of(settings):
     """Words of the command line that say how, not what."""
-    words = ["-o", "picture.exr", "--npz", "picture.npz", "--compression", "none", "--forget", "--progress", "json"]
-    words += ["--seed", str(settings.seed)]
-    if settings.threads:
-        words += ["--threads", str(settings.threads)]
-    if settings.hosts:
-        hosts = settings.hosts
-        words += ["--hosts", bpy.path.abspath(hosts) if hosts.startswith("//") else hosts]
-    if settings.key:
-        words += ["--key", bpy.path.abspath(settings.key)]
+    words = [*viewport.options_of(settings), "--forget", "--progress", "json"]
     if settings.preview > 0:
         words += ["--preview", repr(settings.preview)]
     return words

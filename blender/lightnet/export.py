@@ -26,11 +26,9 @@ class Export:
         self.report, self.motion = Report(), moving or motion.Motion()
         self.view = view or self._view_of_camera()
         self.groups = {}  # names of lamps by group
-        self._used, self._surfaces, self._parts, self._ids = set(kept), {}, {}, set()
+        self._used, self._surfaces, self._ids = set(kept), {}, set()
         self._known_groups = {group.name for group in view_layer.lightgroups} if view_layer else set()
         self._body, self._materials = [], []
-        self._meshes = {}
-        self.triangles = 0
 
     def _view_of_camera(self):
         if self.scene.camera is None:

@@ -8,11 +8,7 @@ class Fillings(nodes.Evaluator):
 
     def volume(self, socket):
         """What comes into a socket of shaders. Nothing: empty space."""
-        before = list(self.groups)
-        found = self.source(socket)
-        result = self._made(found.node) if found.is_output else volumes.Volume()
-        self.groups = before
-        return result
+        return self.at(socket, self._made, volumes.Volume)
 
     def _made(self, node):
         place = f"{self.where}: {node.name}"

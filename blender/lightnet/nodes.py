@@ -55,6 +55,14 @@ class Evaluator:
         as_number = socket.type == "VALUE" and found.is_output and found.type != "VALUE"
         return values.grey(result) if as_number else result
 
+    def at(self, socket, make, nothing):
+        """make() of the node whose output comes into a socket; nothing() where none does."""
+        before = list(self.groups)
+        found = self.source(socket)
+        result = make(found.node) if found.is_output else nothing()
+        self.groups = before
+        return result
+
     def made(self, node, output):
         maker = makers.get(node.type)
         if maker is None:

@@ -6,6 +6,7 @@ import queue
 import shutil
 import signal
 import subprocess
+import tempfile
 import threading
 
 patience = 15  # seconds that a run has to end when it is told to
@@ -17,6 +18,21 @@ def path_of(chosen):
         if candidate and os.access(candidate, os.X_OK):
             return candidate
     raise FileNotFoundError("there is no program lightnet in the PATH; the add-on's preferences may name it")
+
+
+def new_folder():
+    """A folder of this process's own: in memory, where there is such a place, else where temporary files are."""
+    memory = "/dev/shm"
+    return tempfile.mkdtemp(prefix=f"lightnet-{os.getpid()}-", dir=memory if os.access(memory, os.W_OK) else None)
+
+
+def wait_for(process):
+    """Until it has ended, as it was told to; not for longer than it may take."""
+    try:
+        process.wait(patience)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
 
 
 class Run:
@@ -81,11 +97,7 @@ class Run:
 
     def end(self):
         self.cancel()
-        try:
-            self._process.wait(patience)
-        except subprocess.TimeoutExpired:
-            os.killpg(self._process.pid, signal.SIGKILL)
-            self._process.wait()
+        wait_for(self._process)
         self._reader.join()
         self._process.stderr.close()
 
@@ -126,7 +138,7 @@ class Session:
             pass  # it has ended, which ended() says
 
     def has_news(self):
-        return not self._events.empty() or self.ended()
+        return not self._events.empty()
 
     def events(self):
         """What has happened since the last call: pictures, and mistakes."""
@@ -145,11 +157,7 @@ class Session:
     def end(self):
         if not self.ended():
             self._process.send_signal(signal.SIGTERM)
-        try:
-            self._process.wait(patience)
-        except subprocess.TimeoutExpired:
-            os.killpg(self._process.pid, signal.SIGKILL)
-            self._process.wait()
+        wait_for(self._process)
         for reader in self._readers:
             reader.join()
         for stream in (self._process.stdin, self._process.stdout, self._process.stderr):

@@ -13,11 +13,7 @@ class Shaders(nodes.Evaluator):
 
     def shader(self, socket):
         """What comes into a socket of shaders. Nothing: black."""
-        before = list(self.groups)
-        found = self.source(socket)
-        result = self._made(found.node) if found.is_output else Surface()
-        self.groups = before
-        return result
+        return self.at(socket, self._made, Surface)
 
     def _made(self, node):
         place = f"{self.where}: {node.name}"
@@ -35,11 +31,7 @@ class Shaders(nodes.Evaluator):
         socket = node.inputs.get(name)
         if bsdf is None or socket is None or not socket.is_linked:
             return bsdf
-        before = list(self.groups)
-        found = self.source(socket)
-        result = self._bumps(found.node, bsdf) if found.is_output else bsdf
-        self.groups = before
-        return result
+        return self.at(socket, lambda bumps: self._bumps(bumps, bsdf), lambda: bsdf)
 
     def _bumps(self, node, bsdf):
         place = f"{self.where}: {node.name}"

@@ -3,7 +3,6 @@
 import math
 import os
 import shutil
-import tempfile
 import weakref
 
 import bpy
@@ -24,10 +23,7 @@ class Viewport:
     """One view that is rendered. Made, fed and drawn by Blender's main thread."""
 
     def __init__(self):
-        memory = "/dev/shm"
-        self._folder = tempfile.mkdtemp(
-            prefix=f"lightnet-{os.getpid()}-", dir=memory if os.access(memory, os.W_OK) else None
-        )
+        self._folder = program.new_folder()
         self._session, self._asked, self._number = None, None, 0
         self._stale, self._edited = True, None
         self.picture, self.samples, self.finished, self.mistake = None, 0, False, ""
@@ -55,7 +51,8 @@ class Viewport:
 
     def waits(self):
         """Is there something to be drawn that has not been?"""
-        return self._session is not None and (self._session.has_news() or self._stale)
+        session = self._session
+        return session is not None and (session.has_news() or self._stale or (session.ended() and not self.mistake))
 
     def close(self):
         """Ends the session, and removes its files."""
@@ -70,9 +67,14 @@ class Viewport:
         each = max(1, settings.viewport_pixel)
         size = math.ceil(region.width / each), math.ceil(region.height / each)
         view = view_of_region(context, size)
-        asked = size, settings.lighting, settings.viewport_samples, settings.seed, settings.threads, settings.hosts, settings.key
-        if asked != self._asked or self._session is None or self._session.ended():
-            self._restart(engine, context, depsgraph, settings, view, asked)
+        transparent = context.scene.render.film_transparent
+        asked = size, settings.lighting, settings.viewport_samples, transparent, *options_of(settings)
+        ended = self._session is not None and self._session.ended()
+        if self._session is None or asked != self._asked or (ended and self._stale):
+            self._restart(engine, context, depsgraph, settings, view)
+            self._asked = asked
+        elif ended:  # it would end again, until something is another
+            self.mistake = next(iter(self._session.said()[-1:]), "the session has ended")
         elif self._stale:
             self._number += 1
             name = f"scene-{self._number}.xml"
@@ -86,21 +88,16 @@ class Viewport:
             self._send(camera=camera)
         self._edited = _words(view)
 
-    def _restart(self, engine, context, depsgraph, settings, view, asked):
+    def _restart(self, engine, context, depsgraph, settings, view):
         if self._session:
             self._session.end()
-            if self._asked == asked and self._session.said():
-                self.mistake = self._session.said()[-1]
-        same_failed = self._asked == asked and self._session is not None
-        self._asked, self._session = asked, None
-        if same_failed and not self._stale:
-            return  # it would fail again
+            self._session = None
         self._write(engine, context, depsgraph, view, "scene.xml")
         lighting = "path" if settings.lighting == "file" else settings.lighting
         with open(os.path.join(self._folder, "graph.lua"), "w", encoding="utf-8") as file:
             file.write(graph.text_of(lighting, view.size, settings.viewport_samples, transparent=context.scene.render.film_transparent))
         where = program.path_of(chosen_program())
-        self._session = program.Session([where, "session", "graph.lua", *options_of(settings)], self._folder)
+        self._session = program.Session([where, "session", "graph.lua", "--json", *options_of(settings)], self._folder)
         self.samples, self.finished, self.mistake = 0, False, ""
 
     def _write(self, engine, context, depsgraph, view, name):
@@ -156,8 +153,8 @@ def chosen_program():
 
 
 def options_of(settings):
-    """Words of the command line that say how, not what."""
-    words = ["-o", "picture.exr", "--npz", "picture.npz", "--compression", "none", "--json", "--seed", str(settings.seed)]
+    """Words of the command line that say how, not what, of runs and of sessions."""
+    words = ["-o", "picture.exr", "--npz", "picture.npz", "--compression", "none", "--seed", str(settings.seed)]
     if settings.threads:
         words += ["--threads", str(settings.threads)]
     if settings.hosts:

@@ -6,6 +6,7 @@ blender -b --factory-startup --python compositor_test.py
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,9 +18,9 @@ import numpy
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def blocks():
-    """The page's text for Blender, block by block."""
-    return re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "compositor.md").read_text(), re.S)
+def blocks(language):
+    """The page's text in a language, block by block."""
+    return re.findall(rf"```{language}\n(.*?)```", (ROOT / "docs" / "compositor.md").read_text(), re.S)
 
 
 def pixels(file, *channels):
@@ -53,7 +54,7 @@ def main():
         remixed = [os.environ["LIGHTNET"], "remix", "shot.exr"]
         remixed += [f"{operator}.key=0.5" for operator in ("direct", "bounce", "emission")]
         subprocess.run([*remixed, "-o", "remixed.exr"], check=True, stdout=subprocess.DEVNULL)
-        mix, matte = blocks()
+        mix, matte = blocks("python")
         names = {}
         exec(compile(mix, "compositor.md", "exec"), names)
         wanted, found = pixels("remixed.exr", "R", "G", "B"), composed(folder + "/mixed.exr")
@@ -63,6 +64,10 @@ def main():
         alpha, whole = composed(folder + "/matte.exr")[..., 3], pixels("shot.exr", "A")[..., 0]
         assert alpha.max() > 0.99 and 0.001 < alpha.mean() < whole.mean(), (alpha.max(), alpha.mean(), whole.mean())
         assert (alpha < whole + 1e-3).all()
+        if shutil.which("oiiotool"):
+            for block in blocks("sh"):
+                subprocess.run(["sh", "-e", "-c", block], check=True, stdout=subprocess.DEVNULL)
+            assert (pixels("key.exr", "direct.key.R") == pixels("shot.exr", "direct.key.R")).all()
     print("PASSED")
 
 
