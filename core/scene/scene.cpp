@@ -229,7 +229,10 @@ const std::vector<Instance>& Scene::all() const {
     return built_->data.instances;
 }
 
-bool Scene::moves() const { return view_.parts.expect(ScenePart::geometry), !built_->data.motion.empty(); }
+bool Scene::moves() const {
+    view_.parts.expect(ScenePart::geometry | ScenePart::lamps);  // which may be all that moves
+    return !built_->data.motion.empty();
+}
 
 bool Scene::moves(const Hit& hit) const {
     view_.parts.expect(ScenePart::geometry);

@@ -186,6 +186,17 @@ TEST_F(Memo, RendersWhereAFilmIsDamaged) {
     EXPECT_TRUE(again.picture == fresh({}).picture);
 }
 
+TEST_F(Memo, TakesWhatHostsHaveRendered) {
+    std::ofstream(there / "room.pbrt") << Edit().scene();
+    std::ofstream(there / "room.lua") << Edit().graph();
+    const Launch hosts = test::launch(there / "room.lua", there,
+                                      {"--local-workers", "1", "--seed", "0", "--memo", "--cache", there / "cache"});
+    ASSERT_EQ(hosts.code, 0) << hosts.said;
+    const Launch launch = render({});
+    EXPECT_EQ(counter(launch.report, "rays"), 0);
+    EXPECT_TRUE(launch.picture == hosts.picture);
+}
+
 TEST_F(Memo, NeedsACache) {
     std::ofstream(there / "room.pbrt") << Edit().scene();
     std::ofstream(there / "room.lua") << Edit().graph();

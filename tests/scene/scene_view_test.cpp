@@ -60,7 +60,7 @@ std::vector<Read> reads_of_geometry() {
             {"surface", geometry, [](const Scene& scene) { scene.surface(of_the_ball()); }},
             {"bounds", geometry, [](const Scene& scene) { scene.bounds(); }},
             {"radius", geometry, [](const Scene& scene) { scene.radius(); }},
-            {"moves", geometry, [](const Scene& scene) { scene.moves(); }},
+            {"moves", geometry | ScenePart::lamps, [](const Scene& scene) { scene.moves(); }},
             {"column_shapes", geometry | ScenePart::materials, [](const Scene& scene) { scene.column_shapes(); }},
             {"shapes", geometry | ScenePart::lamps | ScenePart::names, [](const Scene& scene) { scene.all<Shape>(); }},
             {"objects", geometry | ScenePart::names, [](const Scene& scene) { scene.all<Object>(); }},

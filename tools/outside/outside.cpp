@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    [[noreturn]] static void wrong() { throw Error("a function from outside says what makes no sense"); }
+    [[noreturn]] static void wrong() { throw Error("a function from outside sent a message of the wrong length"); }
     template <class T>
     T take() {
         T value{};
@@ -117,7 +117,7 @@ private:
             const auto index = input(reading);
             return tell(questions_.ask(index, reading.column<Vec3>(count)));
         }
-        throw Error("a function from outside wants what there is not");
+        throw Error("a function from outside sent an unknown request");
     }
     std::size_t input(Reading& reading) const {
         const auto index = reading.number();

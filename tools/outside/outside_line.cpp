@@ -66,7 +66,7 @@ OutsideLine::Message OutsideLine::hear(std::size_t most) {
     read(head);
     std::size_t length = 0;
     for (std::size_t i = 0; i < 4; ++i) length |= static_cast<std::size_t>(head[1 + i]) << (8 * i);
-    if (length > most) throw Error("a function from outside says more than it was asked for");
+    if (length > most) throw Error("a function from outside sent a message that is too long");
     Message message{static_cast<char>(head[0]), std::vector<std::byte>(length)};
     read(message.data);
     return message;

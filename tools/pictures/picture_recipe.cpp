@@ -20,10 +20,7 @@ std::string text_of_graph(Graph graph, const Registry& registry) {
     for (auto& node : graph.nodes) {
         node.where = {};
         const Kind* kind = registry.find(node.kind);
-        if (kind->role != Role::image) continue;
-        for (const auto& param : kind->params)
-            if (param.type == ParamType::film || param.name == "samples" || param.name == "error")
-                node.params.erase(param.name);
+        if (kind->role == Role::image) leave_film_out(node, *kind);
     }
     return to_json(graph);
 }

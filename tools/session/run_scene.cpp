@@ -60,8 +60,8 @@ bool RunScene::was_there(LoadedScene& scene, RunRecorder& book) const {
 }
 
 MadeFrom RunScene::made_from(LoadedScene& scene) const {
-    const bool wanted = request_.memo || !preparing_nodes(job_.graph, registry_).empty();
-    auto made = wanted ? lightnet::made_from(job_, registry_, scene) : lightnet::made_from(job_);
+    auto made =
+        request_.memo ? lightnet::made_from(job_, registry_, scene) : made_from_if_prepared(job_, registry_, scene);
     if (handover_ && scene.tree) handover_->hold(*scene.tree);
     return made;
 }

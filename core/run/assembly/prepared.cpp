@@ -88,6 +88,12 @@ std::string scene_text(const Graph& graph) {
 
 }  // namespace
 
+void leave_film_out(Node& image, const Kind& kind) {
+    for (const auto& param : kind.params)
+        if (param.type == ParamType::film || param.name == "samples" || param.name == "error")
+            image.params.erase(param.name);
+}
+
 std::string text_of_light(const Graph& graph, const Registry& registry) {
     const auto used = used_nodes(graph, renderer_of(graph, registry));
     Graph light;
@@ -96,10 +102,7 @@ std::string text_of_light(const Graph& graph, const Registry& registry) {
         Node& node = light.nodes.emplace_back(graph.nodes[i]);
         const Kind& kind = *registry.find(node.kind);
         if (kind.role == Role::scene) node.entries.clear(), node.params.clear();
-        if (kind.role != Role::image) continue;
-        for (const auto& param : kind.params)
-            if (param.type == ParamType::film || param.name == "samples" || param.name == "error")
-                node.params.erase(param.name);
+        if (kind.role == Role::image) leave_film_out(node, kind);
     }
     const auto film = film_of(graph, registry);
     return text_of(std::move(light)) + '\n' + std::to_string(film.width) + ' ' + std::to_string(film.height);

@@ -39,6 +39,9 @@ std::vector<Tile> rehearsal_tiles(const Graph& graph, const Registry& registry, 
 /// What a rehearsal gives: the questions that were noted, sorted.
 Bytes rehearsal_result(const std::vector<Query>& noted);
 
+/// Takes out of a node that makes the image what changes no answer: film, samples and noise threshold.
+void leave_film_out(Node& image, const Kind& kind);
+
 /// The nodes that the picture needs as text, without what changes no answer: where their lines stand, the film but for
 /// its size, samples and noise threshold, and what the graph says of its scene.
 std::string text_of_light(const Graph& graph, const Registry& registry);
