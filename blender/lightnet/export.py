@@ -1,5 +1,6 @@
 """A scene of Blender as a folder with `scene.xml`, files of meshes and pictures beside it."""
 
+import dataclasses
 import os
 import re
 
@@ -14,6 +15,18 @@ with_mesh = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 def plain(name):
     """A name of letters, digits and _."""
     return re.sub(r"\W", "_", name, flags=re.ASCII)[:60] or "_"
+
+
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """What of a thing has one material."""
+
+    file: str
+    bsdf: str  # its id
+    light: object = None  # what shines of it
+    medium: str | None = None  # the id of what fills it
+    kind: str = "ply"
+    flat: bool = False  # normals are those of its triangles
 
 
 class Export:
@@ -186,9 +199,10 @@ class Export:
             return []
         slots = [slot.material for slot in thing.material_slots]
         parts = []
-        for number, data in meshes.parts_of(mesh):
+        flat = meshes.is_flat(mesh)
+        for number, data in meshes.parts_of(mesh, flat):
             material = slots[min(number, len(slots) - 1)] if slots else None
-            parts.append((self.write_data(data, "mesh", ".ply"), *self._surface(material)))
+            parts.append(Part(self.write_data(data, "mesh", ".ply"), *self._surface(material), flat=flat))
         thing.to_mesh_clear()
         return parts
 
@@ -209,18 +223,18 @@ class Export:
         bsdf, light, _ = self._surface(material)
         if light is not None:
             self.report.missing("lights of hair", thing.name)
-        return [(self.write_data(data, "mesh", ".strands"), bsdf, None, None)]
+        return [Part(self.write_data(data, "mesh", ".strands"), bsdf, kind="bsplinecurve")]
 
     def _stand(self, parts, places):
         """Puts a mesh where it stands: once as it is, else by instances of one group. Lamps and volumes stand each by itself."""
-        alone = [part for part in parts if part[2] is not None or part[3] is not None]
+        alone = [part for part in parts if part.light is not None or part.medium is not None]
         dark = [part for part in parts if part not in alone]
         for name, way, group in places:
             for part in alone:
                 self._shape(part, way, name, group)
         if not dark:
             return
-        if len(places) == 1 and not any(is_hair(part) for part in dark):  # radii are those of the file, but in groups
+        if len(places) == 1 and not any(part.kind == "bsplinecurve" for part in dark):  # radii are those of the file, but in groups
             for part in dark:
                 self._shape(part, places[0][1], places[0][0], "")
             return
@@ -234,22 +248,22 @@ class Export:
             self._body.append(instance.add(way.element(), xml.Element("ref", id=name)))
 
     def _element(self, part, way, name):
-        file, bsdf, _, medium = part
-        kind = "bsplinecurve" if is_hair(part) else "ply"
-        element = xml.Element("shape", type=kind, **({"id": name} if name else {}))
-        element.add(xml.word("filename", file))
+        element = xml.Element("shape", type=part.kind, **({"id": name} if name else {}))
+        element.add(xml.word("filename", part.file))
+        if part.flat:
+            element.add(xml.flag("face_normals"))
         if way is not None:
             element.add(way.element())
-        element.add(xml.Element("ref", id=bsdf))
-        return element.add(medium and xml.Element("ref", name="interior", id=medium))
+        element.add(xml.Element("ref", id=part.bsdf))
+        return element.add(part.medium and xml.Element("ref", name="interior", id=part.medium))
 
     def _shape(self, part, way, name, group):
         name = self._id(name)
         element = self._element(part, way, name)
-        if part[2] is not None:
+        if part.light is not None:
             lamp = self._id(name + "_light")
             light = xml.Element("emitter", type="area", id=lamp)
-            element.add(light.add(self.put("radiance", part[2]), xml.flag("two_sided")))
+            element.add(light.add(self.put("radiance", part.light), xml.flag("two_sided")))
             self._join(lamp, group)
         self._body.append(element)
 
@@ -257,10 +271,6 @@ class Export:
 colours = {
     "reflectance", "transmittance", "specular_reflectance", "specular_transmittance", "base_color", "radiance",
 }
-
-
-def is_hair(part):
-    return part[0].endswith(".strands")
 
 
 def black(_):

@@ -2,14 +2,19 @@
 
 import numpy
 
-from . import values
+
+def is_flat(mesh):
+    """Are all of its normals those of its polygons?"""
+    smooth = numpy.empty(len(mesh.polygons), bool)
+    mesh.polygons.foreach_get("use_smooth", smooth)
+    return not smooth.any() and not mesh.has_custom_normals
 
 
-def arrays_of(mesh):
+def arrays_of(mesh, flat):
     """Of an evaluated mesh: its vertices, and what triangles make of them.
 
-    Vertices (v, 3); their numbers (n, 3), normals (n, 3, 3) and texture coordinates (n, 3, 2) or None by triangle and
-    corner; materials (n).
+    Vertices (v, 3); their numbers (n, 3), normals (n, 3, 3) or None (flat) and texture coordinates (n, 3, 2) or None by
+    triangle and corner; materials (n).
     """
     mesh.calc_loop_triangles()
     count = len(mesh.loop_triangles)
@@ -20,14 +25,14 @@ def arrays_of(mesh):
     mesh.loop_triangles.foreach_get("material_index", which)
     places = numpy.empty(3 * len(mesh.vertices), numpy.float32)
     mesh.vertices.foreach_get("co", places)
-    normals = normals_of(mesh)
+    normals = None if flat else normals_of(mesh)[loops].reshape(-1, 3, 3)
     layer = next((one for one in mesh.uv_layers if one.active_render), None)
     uv = None
     if layer is not None:
         uv = numpy.empty(2 * len(mesh.loops), numpy.float32)
         layer.data.foreach_get("uv", uv)
         uv = uv.reshape(-1, 2)[loops].reshape(-1, 3, 2)
-    return places.reshape(-1, 3), corners.reshape(-1, 3), normals[loops].reshape(-1, 3, 3), uv, which
+    return places.reshape(-1, 3), corners.reshape(-1, 3), normals, uv, which
 
 
 def normals_of(mesh):
@@ -41,36 +46,36 @@ def normals_of(mesh):
     return found.reshape(-1, 3)
 
 
-def shared_corners(places, corners, normals, uv):
-    """Vertices and triangles, where all corners of each vertex agree; None: they don't."""
+def shared_corners(places, corners, by_corner):
+    """Vertices and triangles, where all corners of each vertex agree; None: they don't. by_corner: arrays (n, 3, k)."""
     first = numpy.empty(len(places), numpy.int64)
     flat = corners.reshape(-1)
     first[flat] = numpy.arange(len(flat))
     same = first[flat]
-    flat_normals = normals.reshape(-1, 3)
-    if not numpy.array_equal(flat_normals, flat_normals[same]):
-        return None
-    parts = [places, numpy.zeros_like(places)]
-    parts[1][flat] = flat_normals
-    if uv is not None:
-        flat_uv = uv.reshape(-1, 2)
-        if not numpy.array_equal(flat_uv, flat_uv[same]):
+    parts = [places]
+    for one in by_corner:
+        found = one.reshape(len(flat), -1)
+        if not numpy.array_equal(found, found[same]):
             return None
-        parts.append(numpy.zeros((len(places), 2), numpy.float32))
-        parts[2][flat] = flat_uv
+        parts.append(numpy.zeros((len(places), found.shape[1]), numpy.float32))
+        parts[-1][flat] = found
     return numpy.concatenate(parts, axis=1), corners
 
 
 def ply(places, corners, normals, uv):
     """The bytes of a binary PLY file. Texture coordinates go down, as Mitsuba's do."""
+    words, by_corner = ["x", "y", "z"], []
+    if normals is not None:
+        words += ["nx", "ny", "nz"]
+        by_corner.append(normals)
     if uv is not None:
-        uv = numpy.stack((uv[..., 0], 1 - uv[..., 1]), axis=-1)
-    found = shared_corners(places, corners, normals, uv)
+        words += ["u", "v"]
+        by_corner.append(numpy.stack((uv[..., 0], 1 - uv[..., 1]), axis=-1))
+    found = shared_corners(places, corners, by_corner)
     if found is None:
-        parts = [places[corners.reshape(-1)], normals.reshape(-1, 3)] + ([uv.reshape(-1, 2)] if uv is not None else [])
+        parts = [places[corners.reshape(-1)], *(one.reshape(corners.size, -1) for one in by_corner)]
         found = numpy.concatenate(parts, axis=1), numpy.arange(corners.size).reshape(-1, 3)
     vertices, triangles = found
-    words = ["x", "y", "z", "nx", "ny", "nz"] + (["u", "v"] if uv is not None else [])
     head = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(vertices)}\n"
     head += "".join(f"property float {word}\n" for word in words)
     head += f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
@@ -79,18 +84,14 @@ def ply(places, corners, normals, uv):
     return head.encode() + numpy.ascontiguousarray(vertices, "<f4").tobytes() + faces.tobytes()
 
 
-def parts_of(mesh):
+def parts_of(mesh, flat):
     """A file's bytes for each material's number in a mesh."""
-    places, corners, normals, uv, which = arrays_of(mesh)
+    places, corners, normals, uv, which = arrays_of(mesh, flat)
     for number in numpy.unique(which):
         chosen = which == number
         if chosen.all():
             yield int(number), ply(places, corners, normals, uv)
             continue
         used, renamed = numpy.unique(corners[chosen], return_inverse=True)
-        part_uv = None if uv is None else uv[chosen]
-        yield int(number), ply(places[used], renamed.reshape(-1, 3), normals[chosen], part_uv)
-
-
-def file_name(data):
-    return f"mesh-{values.name_of(data)}.ply"
+        of_part = [None if one is None else one[chosen] for one in (normals, uv)]
+        yield int(number), ply(places[used], renamed.reshape(-1, 3), *of_part)
