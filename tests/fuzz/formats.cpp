@@ -272,7 +272,10 @@ std::vector<std::string> measured_seeds() {
 
 void read_profile(std::span<const std::byte> bytes) {
     try {
-        const auto profile = read_light_profile(text_of(bytes));
+        const auto profile = read_light_profile(text_of(bytes), [&](const std::string& name) {
+            return std::optional<std::string>(name + "\n2 0 90 1 .5");
+        });
+        (void)profile.tilt.factor(Matrix{}, normalize(Vec3{1, 2, -2}));
         for (const Vec3 d : {Vec3{0, 0, -1}, Vec3{0, 0, 1}, normalize(Vec3{1, 2, -1}), normalize(Vec3{-1, -0.5f, 2})})
             if (const float candela = profile.towards(d); !(candela >= 0 && candela < 1e31f))
                 throw std::logic_error("a profile of impossible light");
@@ -284,7 +287,8 @@ std::vector<std::string> profile_seeds() {
     return {test::light_profile("3 2", "0 45 90\n0 180\n9 5 1\n8 4 0"),
             test::light_profile("2 4", "0 180 0 90 180 270 1 2 3 4 5 6 7 8"),
             test::light_profile("3 2", "-90 0 90 0 60 1 2 3 4 5 6", 2),
-            "A LAMP\nTILT=INCLUDE\n1\n2\n0 90\n1 .9\n1 100 1 2 1 3 1 0 0 0\n1 1 9\n-10 10\n0\n7 7\n"};
+            "A LAMP\nTILT=INCLUDE\n1\n2\n0 90\n1 .9\n1 100 1 2 1 3 1 0 0 0\n1 1 9\n-10 10\n0\n7 7\n",
+            "TILT=3\n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n7 7\n"};
 }
 
 }  // namespace

@@ -238,6 +238,12 @@ TEST(GltfLights, MayHaveTheProfilesOfLuminaires) {
     EXPECT_NEAR(pattern.radiance({1, 0, 0}).g, 8, 0.05f);
     EXPECT_NEAR(pattern.radiance(normalize({1, 0, 1})).g, 6, 0.05f);
     EXPECT_NEAR(pattern.radiance(normalize({1, 0, -1})).g, 4, 0.05f);
+    // a vertical lamp that lies here
+    const auto lying =
+        read_as("a.glb", glb(file, bytes),
+                {{"a.ies", "TILT=INCLUDE\n1 2 0 90 1 .5\n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n7 7\n"}});
+    EXPECT_NEAR(std::get<PointLight>(lying.lights[0]).intensity.r, 1, 1e-3f);
+    EXPECT_THAT(warnings_of(lying), Not(HasSubstr("tilted")));
     EXPECT_THAT(errors_as("a.glb", glb(file, bytes), {{"a.ies", "x"}}), HasSubstr("lights[0]"));
     EXPECT_THAT(errors_as("a.glb", glb(file, bytes)), HasSubstr("a.ies"));
 }

@@ -14,6 +14,7 @@ namespace lightnet::test::lamp_profiles_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // 100 cd straight down, 20 all around, nothing above
 const std::string downlight = light_profile("2 1", "0 90\n0\n100 20");
@@ -72,6 +73,34 @@ TEST(LampProfiles, OfPointsHangAsTheGraphSays) {
     EXPECT_NEAR(towards(scene.lights[1], {1, 0, 0}), 100, 1) << "a spot points by itself";
     wanted.profiles_down = Vec3{0, 0, 0};
     EXPECT_THAT(error_of(with_lamps(), wanted), HasSubstr("g.lua:3: 'ies_down' must be a direction"));
+}
+
+// of a vertical lamp, as beside.ies and the file that side.ies names have it: half as bright when it lies
+TEST(LampProfiles, AreDimmedByTheTiltOfTheirLamps) {
+    const std::string numbers = "1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 180\n0\n10 10\n", factors = "1\n2\n0 90\n1 .5\n";
+    const auto shine = [&](const std::optional<Vec3>& down, const std::optional<Vec3>& up, const std::string& name) {
+        auto wanted = profiles({{"b*", name}});
+        wanted.profiles_down = down;
+        SceneData scene = with_lamps();
+        scene.up = up;
+        MemoryFiles files{{{"l/a.ies", "TILT=INCLUDE\n" + factors + numbers},
+                           {"l/b.ies", "TILT=C:\\x\\B.TLT\n" + numbers},
+                           {"l/c.ies", "TILT=c.tlt\n" + numbers},
+                           {"l/b.tlt", factors}}};
+        apply(wanted, scene, files, {"g.lua", 3});
+        return scene;
+    };
+    for (const std::string name : {"l/a.ies", "l/b.ies"}) {
+        const auto scene = shine(Vec3{0, -1, 0}, std::nullopt, name);
+        EXPECT_NEAR(towards(scene.lights[0], {1, 0, 0}), 20, 0.1f) << "it hangs as the graph says";
+        EXPECT_NEAR(towards(scene.lights[1], {1, 0, 0}), 5, 0.1f) << "a spot that points to the side";
+        EXPECT_THAT(warnings_of(scene), Not(HasSubstr("tilted")));
+        EXPECT_NEAR(towards(shine({}, Vec3{1, 0, 0}, name).lights[1], {1, 0, 0}), 10 * 0.5f, 0.1f) << "no table";
+        EXPECT_NEAR(towards(shine({}, Vec3{0, 0, 1}, name).lights[0], {1, 0, 0}), 20, 0.1f);
+        EXPECT_THAT(warnings_of(shine({}, {}, name)), HasSubstr("nothing says where down is"));
+    }
+    EXPECT_THAT(warnings_of(shine({}, Vec3{0, 1, 0}, "l/c.ies")), HasSubstr("'l/c.ies': how the lamp's light changes "
+                                                                            "as it is tilted is left out, as 'c.tlt'"));
 }
 
 TEST(LampProfiles, BelongToLampsThatCanHaveOne) {

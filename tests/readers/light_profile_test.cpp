@@ -108,14 +108,60 @@ TEST(LightProfiles, AreMultipliedByTheirFactors) {
     EXPECT_NEAR(candela("TILT=NONE\n1 -1 2.5 2 1 1 1 0 0 0 1 1 0 0 90 0 10 10", 45, 0), 25, 1e-3f);
 }
 
+/// A lamp of `lying` (1 to 3) that gives .9 at 45 degrees, .7 at 90, and 9 cd all around below.
+std::string tilting(const std::string& lying, const std::string& more = "") {
+    const std::string angles = more.empty() ? "0 45 90" : "0 45 90 180", factors = "1 .9 .7 " + more;
+    return "A LAMP OF OLD\nTILT=INCLUDE\n" + lying + "\n" + (more.empty() ? "3\n" : "4\n") + angles + "\n" + factors +
+           "\n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n9 9\n";
+}
+
+/// A luminaire that was turned by so many degrees around its axis x or y.
+Matrix tilted(float degrees, char around) {
+    const double c = std::cos(double{degrees} * pi / 180), s = std::sin(double{degrees} * pi / 180);
+    Matrix turn;
+    if (around == 'x') turn.m[1] = {0, c, -s, 0}, turn.m[2] = {0, s, c, 0};
+    if (around == 'y') turn.m[0] = {c, 0, s, 0}, turn.m[2] = {-s, 0, c, 0};
+    return turn;
+}
+
 // of 1986, without a first line that says so
 TEST(LightProfiles, MayHaveFactorsOfTilt) {
-    const auto profile = read_light_profile(
-        "A LAMP OF OLD\nTILT=INCLUDE\n1\n3\n0 45 90\n1 .9 .8\n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n7 7\n");
-    EXPECT_TRUE(profile.tilted);
-    EXPECT_NEAR(profile.towards({0, 0, -1}), 7, 1e-4f);
-    EXPECT_FALSE(read_light_profile(light_profile("2 1", "0 90 0 1 1")).tilted);
-    EXPECT_FALSE(read_light_profile(" TILT = NONE \n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n7 7\n").tilted);
+    const auto profile = read_light_profile(tilting("1"));
+    EXPECT_TRUE(profile.tilt.varies());
+    EXPECT_NEAR(profile.towards({0, 0, -1}), 9, 1e-4f);
+    EXPECT_FALSE(read_light_profile(light_profile("2 1", "0 90 0 1 1")).tilt.varies());
+    EXPECT_FALSE(read_light_profile(" TILT = NONE \n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n7 7\n").tilt.varies());
+    EXPECT_EQ(read_light_profile(light_profile("2 1", "0 90 0 1 1")).tilt.factor(tilted(50, 'x'), {0, 0, 1}), 1);
+}
+
+TEST(LightProfiles, ChangeAsTheirLampIsTilted) {
+    const auto factor = [](const std::string& text, float degrees, char around) {
+        return read_light_profile(text).tilt.factor(tilted(degrees, around), {0, 0, 1});
+    };
+    for (const char around : {'x', 'y'}) {
+        EXPECT_NEAR(factor(tilting("1"), 0, around), 1, 1e-3f);
+        EXPECT_NEAR(factor(tilting("1"), 45, around), 0.9f, 1e-3f);
+        EXPECT_NEAR(factor(tilting("1"), -60, around), 0.833f, 1e-3f);
+        EXPECT_NEAR(factor(tilting("1"), 150, around), 0.7f, 1e-3f) << "beyond the last angle";
+        EXPECT_NEAR(factor(tilting("1", "1.3"), 135, around), 1, 1e-3f);
+    }
+    EXPECT_NEAR(factor(tilting("2"), 45, 'y'), 1, 1e-3f) << "a horizontal lamp turns around itself";
+    EXPECT_NEAR(factor(tilting("2"), 45, 'x'), 0.9f, 1e-3f);
+    EXPECT_NEAR(factor(tilting("3"), 45, 'x'), 1, 1e-3f);
+    EXPECT_NEAR(factor(tilting("3"), 45, 'y'), 0.9f, 1e-3f);
+    EXPECT_NEAR(factor(tilting("3"), 135, 'y'), 0.9f, 1e-3f) << "no table beyond 90: as far from the horizontal";
+    EXPECT_NEAR(factor(tilting("3", "1.3"), 135, 'y'), 1, 1e-3f);
+}
+
+TEST(LightProfiles, MayNameAFileOfFactorsOfTilt) {
+    const std::string text = "TILT=lamps\\a.tlt\n1 100 1 2 1 1 1 0 0 0\n1 1 9\n0 90\n0\n7 7\n";
+    const auto profile = read_light_profile(text, [](const std::string& name) {
+        return name == "lamps\\a.tlt" ? std::optional<std::string>("1\n2\n0 90\n1 .5\n") : std::nullopt;
+    });
+    EXPECT_NEAR(profile.tilt.factor(tilted(45, 'x'), {0, 0, 1}), 0.75f, 1e-3f);
+    EXPECT_EQ(lacks_of_tilt(profile, true), "");
+    EXPECT_THAT(lacks_of_tilt(profile, false), HasSubstr("nothing says where down is"));
+    EXPECT_THAT(lacks_of_tilt(read_light_profile(text), true), HasSubstr("'lamps\\a.tlt' can't be read"));
 }
 
 TEST(LightProfiles, SayWhatIsWrong) {
@@ -137,6 +183,8 @@ TEST(LightProfiles, SayWhatIsWrong) {
     EXPECT_THAT(problem(light_profile("60000 60000", "0 90 0 1 1")), HasSubstr("it ends before the number of vert"));
     EXPECT_THAT(problem(light_profile("2 1", "0 90 0 1 1", 4)), HasSubstr("there is no type of photometry 4"));
     EXPECT_THAT(problem(light_profile("2 1", "0 90 0 1 nan")), HasSubstr("not a number"));
+    EXPECT_THAT(problem(tilting("4")), HasSubstr("a lamp lies by 1, 2 or 3, not by 4"));
+    EXPECT_THAT(problem(tilting("1", "-1")), HasSubstr("a factor of tilt is -1"));
 }
 
 // of a surface that shines evenly, I cos: π I in all
@@ -176,6 +224,18 @@ TEST(PbrtProfiles, AreWhatGoniometricLightsMayName) {
     const Environment pattern(*light.pattern);
     EXPECT_NEAR(pattern.radiance(direction(45, 30)).g * light.intensity.g, 16, 1e-2f);
     EXPECT_EQ(pattern.radiance({0, 0, 1}).g, 0);
+}
+
+// nothing in a pbrt file says where down is
+TEST(PbrtProfiles, HangStraight) {
+    const std::string light = "WorldBegin\nLightSource \"goniometric\" \"string filename\" \"a.ies\"\n";
+    const auto straight = read_as("scene.pbrt", light, {{"a.ies", tilting("1")}});
+    const auto turned =
+        read_as("scene.pbrt", "WorldBegin\nRotate 45 1 0 0\n" + light.substr(11), {{"a.ies", tilting("1")}});
+    for (const auto& scene : {straight, turned}) {
+        EXPECT_NEAR(Environment(*std::get<PointLight>(scene.lights.at(0)).pattern).total().g, 18 * pi, 0.5f);
+        EXPECT_THAT(warnings_of(scene), HasSubstr("how the lamp's light changes as it is tilted is left out"));
+    }
 }
 
 TEST(PbrtProfiles, HaveThePowerThatIsAsked) {

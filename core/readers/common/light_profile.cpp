@@ -73,22 +73,6 @@ std::optional<std::string_view> tilt_in(std::string_view line) {
     return trimmed(line.substr(1), blanks);
 }
 
-/// Behind the labels, to the numbers. True: there are factors of tilt.
-bool skip_to_numbers(ProfileText& text) {
-    while (true) {
-        if (text.at_end()) not_a_profile("there is no line that begins with 'TILT='");
-        const auto tilt = tilt_in(text.line());
-        if (!tilt) continue;
-        const std::string_view line = *tilt;
-        if (line == "INCLUDE") {
-            text.number("how the lamp lies");
-            for (std::size_t left = 2 * text.count("the number of angles of tilt"); left > 0; --left)
-                text.number("a factor of tilt");
-        }
-        return line != "NONE";
-    }
-}
-
 std::vector<float> ascending_angles(ProfileText& text, std::size_t count, const char* what) {
     std::vector<float> angles;
     for (std::size_t i = 0; i < count; ++i) {
@@ -97,6 +81,44 @@ std::vector<float> ascending_angles(ProfileText& text, std::size_t count, const 
         if (i > 0 && !(angles[i] > angles[i - 1])) not_a_profile(fmt::format("{} does not ascend", what));
     }
     return angles;
+}
+
+/// How the lamp lies, angles and factors (LM-63-2002, 5.8 to 5.11).
+LampTilt tilt_of(ProfileText& text) {
+    LampTilt tilt;
+    const double lamp = text.number("how the lamp lies");
+    if (lamp != 1 && lamp != 2 && lamp != 3) not_a_profile(fmt::format("a lamp lies by 1, 2 or 3, not by {}", lamp));
+    tilt.lamp = static_cast<LampTilt::Lamp>(int(lamp));
+    const std::size_t count = text.count("the number of angles of tilt");
+    tilt.angles = ascending_angles(text, count, "an angle of tilt");
+    for (std::size_t i = 0; i < count; ++i) {
+        const double factor = text.number("a factor of tilt");
+        if (!(factor >= 0 && factor < 1e6)) not_a_profile(fmt::format("a factor of tilt is {}", factor));
+        tilt.factors.push_back(static_cast<float>(factor));
+    }
+    return tilt;
+}
+
+/// Behind the labels, to the numbers.
+void take_tilt(ProfileText& text, const TiltFile& tilt_file, LightProfile& profile) {
+    while (true) {
+        if (text.at_end()) not_a_profile("there is no line that begins with 'TILT='");
+        const auto tilt = tilt_in(text.line());
+        if (!tilt) continue;
+        if (*tilt == "NONE") return;
+        if (*tilt == "INCLUDE") {
+            profile.tilt = tilt_of(text);
+            return;
+        }
+        const std::string name(*tilt);
+        if (const auto other = tilt_file ? tilt_file(name) : std::nullopt) {
+            ProfileText there(*other);
+            profile.tilt = tilt_of(there);
+        } else {
+            profile.tilt_missing = name;
+        }
+        return;
+    }
 }
 
 /// The angles between which one lies, and the share of the second. None: it lies beyond them.
@@ -165,13 +187,13 @@ float LightProfile::towards(Vec3 d) const {
     return plane(h.first) + (plane(h.second) - plane(h.first)) * h.share;
 }
 
-LightProfile read_light_profile(std::string_view text) {
+LightProfile read_light_profile(std::string_view text, const TiltFile& tilt_file) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     // since 1995 the first line names the edition, and one factor is something else: of 2019, how the file was made
     const bool newer = text.starts_with("IESNA:LM-63-") || text.starts_with("IES:LM-63-");
     ProfileText input(text);
     LightProfile profile;
-    profile.tilted = skip_to_numbers(input);
+    take_tilt(input, tilt_file, profile);
     input.number("the number of lamps"), input.number("the lumens of a lamp");
     double factor = input.number("the factor of all candelas");
     const std::size_t verticals = input.count("the number of vertical angles"),
@@ -193,6 +215,15 @@ LightProfile read_light_profile(std::string_view text) {
     }
     close_circle(profile);
     return profile;
+}
+
+std::string lacks_of_tilt(const LightProfile& profile, bool up_known) {
+    const std::string straight = "it shines as where it hangs straight";
+    if (!profile.tilt_missing.empty())
+        return "how the lamp's light changes as it is tilted is left out, as '" + profile.tilt_missing.substr(0, 256) +
+               "' can't be read: " + straight;
+    if (!profile.tilt.varies() || up_known) return "";
+    return "how the lamp's light changes as it is tilted is left out, as nothing says where down is: " + straight;
 }
 
 // DECISIONS: profiles-are-pictures

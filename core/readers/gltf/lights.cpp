@@ -82,17 +82,18 @@ void Lights::luminaire(const At& named, const Matrix& to_world, const std::strin
     const At at = list[*which];
     const float strength = named["multiplier"].real(1);
     if (!(strength >= 0)) return named["multiplier"].error("must not be negative");
-    const EnvironmentData* made = pattern(*which, at);
+    const Luminaire* made = pattern(*which, at);
     const Vec3 position = transform_point(to_world, {0, 0, 0});
     if (!in_reach(position)) return named["light"].error("stands out of reach");
     if (!made) return;
     const LampLabel label{node.empty() ? at["name"].text("") : node};
-    PointLight light{position, colour_of(named) * strength, label, *made, turn_of(to_world)};
-    light.pattern->to_world = light.luminaire * made->to_world;
+    PointLight light{position, colour_of(named) * strength, label, made->pattern, turn_of(to_world)};
+    light.pattern->to_world = light.luminaire * made->pattern.to_world;
+    light.intensity *= made->tilt.factor(light.luminaire, {0, 1, 0});
     assets_.scene().lights.push_back(std::move(light));
 }
 
-const EnvironmentData* Lights::pattern(std::size_t index, const At& at) {
+const Lights::Luminaire* Lights::pattern(std::size_t index, const At& at) {
     const auto [entry, fresh] = patterns_.try_emplace(index);
     auto& made = entry->second;
     if (!fresh) return made ? &*made : nullptr;
@@ -109,9 +110,8 @@ const EnvironmentData* Lights::pattern(std::size_t index, const At& at) {
     if (!bytes) return nullptr;
     try {
         const auto profile = read_light_profile({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-        if (profile.tilted)
-            at.warn("how the lamp's light changes as it is tilted is left out: it shines as where it hangs straight");
-        made = pattern_of(profile, Matrix{});
+        if (const std::string lacks = lacks_of_tilt(profile, true); !lacks.empty()) at.warn(lacks);
+        made = Luminaire{pattern_of(profile, Matrix{}), profile.tilt};
     } catch (const Error& problem) {
         at.error(problem.what());
     }

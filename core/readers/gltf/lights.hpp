@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/readers/common/lamp_tilt.hpp"
 #include "core/readers/gltf/document.hpp"
 
 namespace lightnet::gltf {
@@ -21,11 +22,15 @@ public:
 private:
     void punctual(const At& index, const Matrix& to_world, const std::string& node);
     void luminaire(const At& named, const Matrix& to_world, const std::string& node);
-    const EnvironmentData* pattern(std::size_t index, const At& profile);
+    struct Luminaire {
+        EnvironmentData pattern;
+        LampTilt tilt;
+    };
+    const Luminaire* pattern(std::size_t index, const At& profile);
 
     Document& document_;
     Assets& assets_;
-    std::map<std::size_t, std::optional<EnvironmentData>> patterns_;  // by profile; none: reported
+    std::map<std::size_t, std::optional<Luminaire>> patterns_;  // by profile; none: reported
 };
 
 }  // namespace lightnet::gltf

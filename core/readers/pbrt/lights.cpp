@@ -218,10 +218,10 @@ std::optional<EnvironmentData> light_profile(const Making& making, const std::st
     if (!bytes) return std::nullopt;
     try {
         const auto profile = read_light_profile({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()});
-        if (profile.tilted)
-            making.parameters.warn(
-                "how the lamp's light changes as it is tilted is left out: it shines as where it hangs straight");
-        return pattern_of(profile, turn_of(making));
+        if (const std::string lacks = lacks_of_tilt(profile, false); !lacks.empty()) making.parameters.warn(lacks);
+        EnvironmentData pattern = pattern_of(profile, turn_of(making));
+        pattern.radiance *= profile.tilt.straight();
+        return pattern;
     } catch (const Error& problem) {
         making.parameters.error(fmt::format("'{}': {}", file, problem.what()));
         return std::nullopt;
