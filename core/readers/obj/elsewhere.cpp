@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace lightnet::obj {
 namespace {
@@ -14,17 +15,27 @@ std::string written_by(const std::string& from, std::string name) {
     return beside(from, name);
 }
 
-}  // namespace
-
-std::optional<std::string> find_library(const std::string& from, const std::string& name, const SourceLine& where,
-                                        Assets& assets) {
+std::optional<std::string> find(std::string_view what, const std::string& from, const std::string& name,
+                                const SourceLine& where, Assets& assets) {
     if (name.empty()) return std::nullopt;
     const std::string written = written_by(from, name);
     if (assets.exists(written)) return written;
     const auto others = assets.other_places(from, written);
     if (others.empty()) return std::nullopt;
-    assets.report().warn(where, fmt::format("there is no material library '{}': '{}' is taken", name, others[0]));
+    assets.report().warn(where, fmt::format("there is no {} '{}': '{}' is taken", what, name, others[0]));
     return others[0];
+}
+
+}  // namespace
+
+std::optional<std::string> find_library(const std::string& from, const std::string& name, const SourceLine& where,
+                                        Assets& assets) {
+    return find("material library", from, name, where, assets);
+}
+
+std::optional<std::string> find_curve(const std::string& from, const std::string& name, const SourceLine& where,
+                                      Assets& assets) {
+    return find("spectral curve", from, name, where, assets);
 }
 
 std::shared_ptr<const Image> find_picture(const std::string& from, const std::string& name, const Encoding& encoding,

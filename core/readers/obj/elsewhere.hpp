@@ -13,6 +13,9 @@ namespace lightnet::obj {
 /// `from`, which is warned of. None: there is no such file.
 std::optional<std::string> find_library(const std::string& from, const std::string& name, const SourceLine& where,
                                         Assets& assets);
+/// The spectral curve of that name, by the same search.
+std::optional<std::string> find_curve(const std::string& from, const std::string& name, const SourceLine& where,
+                                      Assets& assets);
 /// The image, by the same search. Null: none can be read, and the warning says what is done `instead`.
 std::shared_ptr<const Image> find_picture(const std::string& from, const std::string& name, const Encoding& encoding,
                                           const SourceLine& where, const std::string& instead, Assets& assets);

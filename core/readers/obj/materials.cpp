@@ -11,6 +11,7 @@
 #include "core/readers/common/spectra.hpp"
 #include "core/readers/obj/elsewhere.hpp"
 #include "core/readers/obj/lines.hpp"
+#include "core/readers/obj/spectral.hpp"
 
 namespace lightnet::obj {
 namespace {
@@ -45,8 +46,8 @@ struct Statements {
 
 class MaterialReader {
 public:
-    MaterialReader(const std::string& path, std::span<const std::byte> bytes, Report& report)
-        : lines_(bytes, path), report_(report) {}
+    MaterialReader(const std::string& path, std::span<const std::byte> bytes, Assets& assets)
+        : lines_(bytes, path), assets_(assets), report_(assets.report()) {}
 
     std::vector<Statements> read() {
         while (!report_.full() && lines_.next()) {
@@ -80,7 +81,7 @@ private:
         static const std::set<std::string, std::less<>> ignored{"map_Ka", "map_Ns", "disp",   "refl",   "map_refl",
                                                                 "decal",  "map_Ps", "map_Pc", "map_Pcr"};
         if (colours.contains(word)) {
-            if (const auto value = colour()) material.colours[word] = *value;
+            if (const auto value = colour(word)) material.colours[word] = *value;
         } else if (numbers.contains(word)) {
             if (const auto value = number(word)) material.numbers[word] = *value;
         } else if (const auto known = maps.find(word); known != maps.end()) {
@@ -102,14 +103,13 @@ private:
         return value;
     }
 
-    std::optional<Rgb> colour() {
+    std::optional<Rgb> colour(const std::string& word) {
         auto ahead = lines_;
         const auto first = ahead.word();
         if (first == "spectral") {
-            report_.warn(
-                lines_.where(),
-                fmt::format("colours by '{}' are left out: what has one looks as if the line were not there", first));
-            return std::nullopt;
+            if (word == "Ka") return std::nullopt;  // of no effect
+            lines_ = ahead;
+            return spectral_colour(lines_, word == "Ke", assets_);
         }
         const bool is_xyz = first == "xyz";
         if (is_xyz) lines_ = ahead;
@@ -190,6 +190,7 @@ private:
     }
 
     Lines lines_;
+    Assets& assets_;
     Report& report_;
     std::vector<Statements> materials_;
     std::set<std::string> names_;  // of these
@@ -361,7 +362,7 @@ void read_materials(const std::string& path, const SourceLine& where, Assets& as
     const auto bytes = assets.read(path, where);
     if (!bytes) return;
     Maker maker(assets, path);
-    for (const auto& said : MaterialReader(path, **bytes, assets.report()).read())
+    for (const auto& said : MaterialReader(path, **bytes, assets).read())
         if (!materials.contains(said.name)) materials.emplace(said.name, maker.make(said));
 }
 

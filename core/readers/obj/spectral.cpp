@@ -1,0 +1,53 @@
+#include "core/readers/obj/spectral.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/readers/common/spectra.hpp"
+#include "core/readers/obj/elsewhere.hpp"
+
+namespace lightnet::obj {
+namespace {
+
+/// Throws Error, without the name of the file.
+std::vector<SpectrumPoint> curve_in(const std::string& path, Assets& assets) {
+    const auto [bytes, problem] = assets.try_read(path);
+    if (!bytes) throw Error(problem);
+    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    return read_spd(text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text);
+}
+
+Rgb seen(const std::vector<SpectrumPoint>& curve, bool shines) {
+    return shines ? mean_light(curve).rgb : surface_colour(curve).rgb;
+}
+
+}  // namespace
+
+std::optional<Rgb> spectral_colour(Lines& line, bool shines, Assets& assets) {
+    const SourceLine where = line.where();
+    const std::string name(line.word());
+    const bool has_factor = !line.left().empty();
+    const auto factor = has_factor ? line.number(assets.report()) : std::nullopt;
+    const auto left_out = [&](const std::string& why) {
+        assets.report().warn(where, fmt::format("a colour by 'spectral' is left out: {}: what has it looks as if the "
+                                                "line were not there",
+                                                why));
+        return std::nullopt;
+    };
+    if (name.empty() || name.front() == '#') return left_out("it names no file");
+    const auto path = find_curve(where.file, name, where, assets);
+    if (!path) return left_out(fmt::format("there is no file '{}'", name));
+    try {
+        return seen(curve_in(*path, assets), shines) * factor.value_or(1);
+    } catch (const MissingHere&) {
+        throw;
+    } catch (const Error& problem) {
+        return left_out(fmt::format("'{}': {}", *path, problem.what()));
+    }
+}
+
+}  // namespace lightnet::obj
