@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/readers/common/measurements.hpp"
@@ -68,6 +69,26 @@ TEST(MeasuredFiles, HaveSpectraOfSurfaces) {
     EXPECT_NEAR(seen.r, colour.r, 1e-4f);
     EXPECT_NEAR(seen.g, colour.g, 1e-4f);
     EXPECT_NEAR(seen.b, colour.b, 1e-4f);
+}
+
+// by their names in order, each at a multiple of eight bytes, with fields that no renderer asks for, and as fine
+TEST(MeasuredFiles, AreReadInTheLayoutOfThePublicOnes) {
+    std::vector<float> wavelengths;
+    for (int i = 0; i < 195; ++i) wavelengths.push_back(360 + float(i) * 640 / 194);
+    const auto numbers = ggx_numbers(0.3f, 0.3f, {0.6f, 0.6f, 0.6f}, 32);
+    auto fields = tensor_fields_of(numbers, wavelengths);
+    fields.push_back({"sample_count", 5, {1}, raw(std::uint32_t{7})});
+    fields.push_back({"valid", 1, {3, 1}, "\1\1\1"});
+    fields.push_back({"half", 9, {2}, raw(std::uint16_t{0x3c00}, std::uint16_t{0x7e00})});
+    std::ranges::sort(fields, {}, &TensorField::name);
+    const auto found = read(tensor_file(fields, 8));
+    EXPECT_TRUE(found->isotropic());
+    for (const Vec3 to : {in, out, normalize(Vec3{0.2f, -0.1f, 1})}) {
+        const Rgb expected = Measurement(numbers).value(out, to).value, seen = found->value(out, to).value;
+        EXPECT_NEAR(seen.r, expected.r, 1e-3f * expected.r);
+        EXPECT_NEAR(seen.g, expected.g, 1e-3f * expected.g);
+        EXPECT_NEAR(seen.b, expected.b, 1e-3f * expected.b);
+    }
 }
 
 TEST(MeasuredFiles, MaySayNothingOfFacets) {

@@ -131,12 +131,13 @@ std::vector<TensorField> tensor_fields_of(const Measurement::Numbers& n, const s
     return fields;
 }
 
-std::string tensor_file(const std::vector<TensorField>& fields) {
+std::string tensor_file(const std::vector<TensorField>& fields, std::size_t aligned) {
     std::string header = std::string("tensor_file\0\1\0", 14) + bytes(std::uint32_t(fields.size()));
     std::size_t size = header.size();
     for (const auto& f : fields) size += 2 + f.name.size() + 2 + 1 + 8 + 8 * f.shape.size();
     std::string body;
     for (const auto& f : fields) {
+        while ((size + body.size()) % aligned) body += '\0';
         header += bytes(std::uint16_t(f.name.size())) + f.name + bytes(std::uint16_t(f.shape.size())) + bytes(f.type) +
                   bytes(std::uint64_t{size + body.size()});
         for (const auto length : f.shape) header += bytes(length);

@@ -1,6 +1,7 @@
 // Surfaces whose measurement is known without one.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct TensorField {
     std::vector<std::uint64_t> shape;
     std::string bytes;
 };
-std::string tensor_file(const std::vector<TensorField>& fields);
+/// Each begins at a multiple of `aligned` bytes.
+std::string tensor_file(const std::vector<TensorField>& fields, std::size_t aligned = 1);
 /// The fields of tensor_file_of().
 std::vector<TensorField> tensor_fields_of(const Measurement::Numbers& numbers,
                                           const std::vector<float>& wavelengths = {});
