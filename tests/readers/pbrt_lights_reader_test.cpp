@@ -327,5 +327,20 @@ TEST(PbrtFiles, MayBePacked) {
                 HasSubstr("scene.pbrt:2: Shape 'plymesh': 'm.ply.gz': its gzip packing ends early"));
 }
 
+// 0 beyond the ends of a table, lines of any width
+TEST(PbrtLightSpectra, EndWithTheirTables) {
+    const auto light = [](const std::string& spectrum) {
+        return std::get<PointLight>(
+                   read_as("s.pbrt", "WorldBegin LightSource \"point\" \"spectrum I\" " + spectrum).lights.at(0))
+            .intensity;
+    };
+    const Rgb red = light("[600 1 650 1]"), line = light("[554 0 555 1 556 0]");
+    EXPECT_GT(red.r, 20 * red.g);
+    EXPECT_NEAR(luminance(line), 1, 1e-4f);
+    EXPECT_GT(line.g, 2 * line.r);
+    EXPECT_THAT(warnings_of(read_as("s.pbrt", "WorldBegin LightSource \"point\" \"spectrum I\" [550 1]")),
+                HasSubstr("has one wavelength"));
+}
+
 }  // namespace
 }  // namespace lightnet::test::pbrt_lights_reader_test

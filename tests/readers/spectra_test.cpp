@@ -55,6 +55,24 @@ TEST(Spectra, OfLightKeepTheirLines) {
     EXPECT_NEAR(luminance(mean_light_of_lines(line).rgb), 1000 / 106.857f, 2.5f);
 }
 
+TEST(Spectra, OfLightOfLuminanceOneKeepTheirLines) {
+    const Rgb green = light_colour_of_lines(std::vector<SpectrumPoint>{{554, 0}, {555, 1000}, {556, 0}}).rgb;
+    EXPECT_NEAR(luminance(green), 1, 1e-5f);
+    EXPECT_GT(green.g, 2 * green.r);
+    const std::vector<SpectrumPoint> even{{380, 1}, {780, 1}};
+    const Rgb fine = light_colour_of_lines(even).rgb, coarse = light_colour(even).rgb;
+    EXPECT_NEAR(fine.r, coarse.r, 2e-3f);
+    EXPECT_NEAR(fine.b, coarse.b, 2e-3f);
+}
+
+TEST(Spectra, MayBeDarkBeyondTheirEnds) {
+    const std::vector<SpectrumPoint> some{{500, 1}, {600, 1}};
+    const auto dark = dark_beyond_ends(some, 400, 700);
+    EXPECT_LT(surface_colour(dark).rgb.b, 0.5f * surface_colour(some).rgb.b);
+    EXPECT_NEAR(surface_colour(some).rgb.b, 1, 1e-4f);
+    EXPECT_EQ(dark_beyond_ends(some, 500, 600).size(), some.size());
+}
+
 TEST(Blackbodies, TurnFromRedToBlue) {
     for (const float kelvin : {1000.0f, 2700.0f, 6500.0f, 20000.0f})
         EXPECT_NEAR(luminance(blackbody_colour(kelvin).rgb), 1, 1e-5f) << kelvin;

@@ -153,15 +153,47 @@ LightColour mean_light(std::span<const SpectrumPoint> spectrum) {
     return light_of_sums(sums, whole);
 }
 
-LightColour mean_light_of_lines(std::span<const SpectrumPoint> spectrum) {
-    double x = 0, y = 0, z = 0, whole = 0;
+namespace {
+
+/// CIE XYZ, in steps of a nanometre.
+template <class Spectrum>
+std::array<double, 3> finely(const Spectrum& spectrum) {
+    double x = 0, y = 0, z = 0;
     for (double wavelength = 360; wavelength <= 830; wavelength += 1) {
         const auto match = matching_functions(wavelength);
-        const double value = value_at(spectrum, wavelength);
+        const double value = spectrum(wavelength);
         x += value * match[0], y += value * match[1], z += value * match[2];
-        whole += match[1];
     }
-    return light_of_sums(rgb_of_xyz(x, y, z), whole);
+    return {x, y, z};
+}
+
+std::array<double, 3> rgb_of(const std::array<double, 3>& xyz) { return rgb_of_xyz(xyz[0], xyz[1], xyz[2]); }
+
+double daylight_at(double wavelength) {
+    const double at = std::clamp((wavelength - first_wavelength) / step, 0.0, double(daylight.size() - 1));
+    const auto below = std::min(static_cast<std::size_t>(at), daylight.size() - 2);
+    return daylight[below] + (daylight[below + 1] - daylight[below]) * (at - double(below));
+}
+
+}  // namespace
+
+LightColour mean_light_of_lines(std::span<const SpectrumPoint> spectrum) {
+    static const double whole = finely([](double) { return 1.0; })[1];
+    return light_of_sums(rgb_of(finely([&](double w) { return value_at(spectrum, w); })), whole);
+}
+
+LightColour light_colour_of_lines(std::span<const SpectrumPoint> spectrum) {
+    static const auto white = rgb_of(finely(daylight_at));
+    const auto c = rgb_of(finely([&](double w) { return value_at(spectrum, w); }));
+    return {with_luminance_one({float(c[0] / white[0]), float(c[1] / white[1]), float(c[2] / white[2])})};
+}
+
+std::vector<SpectrumPoint> dark_beyond_ends(std::vector<SpectrumPoint> spectrum, float low, float high) {
+    constexpr float none = 0, endless = 1e6f;
+    const float first = spectrum.front().wavelength, last = spectrum.back().wavelength;
+    if (first > low) spectrum.insert(spectrum.begin(), {std::nextafter(first, none), 0});
+    if (last < high) spectrum.push_back({std::nextafter(last, endless), 0});
+    return spectrum;
 }
 
 LightColour blackbody_colour(float kelvin) {

@@ -39,11 +39,16 @@ SurfaceColour surface_colour(std::span<const SpectrumPoint> spectrum);
 /// Of a light with that spectrum, of luminance 1; D65 gives {1, 1, 1}. Colours that no screen can show are cut at 0.
 /// Black when the spectrum is.
 LightColour light_colour(std::span<const SpectrumPoint> spectrum);
+/// As light_colour(), in steps of a nanometre: for tables with lines in them.
+LightColour light_colour_of_lines(std::span<const SpectrumPoint> spectrum);
 /// Of a light with that spectrum: the mean over the wavelengths, as the eye sees it and without any adaptation. The
 /// same value c everywhere gives {1.205, 0.948, 0.909} c. Colours that no screen can show are cut at 0.
 LightColour mean_light(std::span<const SpectrumPoint> spectrum);
 /// As mean_light(), in steps of a nanometre: for tables with lines in them.
 LightColour mean_light_of_lines(std::span<const SpectrumPoint> spectrum);
+/// The spectrum (of one point at least), but 0 beyond its ends, where it does not begin at `low` and end at `high`
+/// nanometres, or farther out.
+std::vector<SpectrumPoint> dark_beyond_ends(std::vector<SpectrumPoint> spectrum, float low, float high);
 /// Of a black body of that many kelvin (> 0), of luminance 1.
 LightColour blackbody_colour(float kelvin);
 

@@ -22,7 +22,7 @@ std::vector<SpectrumPoint> curve_in(const std::string& path, Assets& assets) {
 }
 
 Rgb seen(const std::vector<SpectrumPoint>& curve, bool shines) {
-    return shines ? mean_light(curve).rgb : surface_colour(curve).rgb;
+    return shines ? mean_light_of_lines(curve).rgb : surface_colour(curve).rgb;
 }
 
 }  // namespace

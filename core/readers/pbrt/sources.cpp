@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/suggestion.hpp"
@@ -14,10 +15,14 @@ namespace {
 
 enum class Seen { surface, index, light };
 
-/// The lights of pbrt-v3 are as bright as their tables say.
-Rgb project(const std::vector<SpectrumPoint>& points, Seen as, const Sources& sources) {
-    if (as != Seen::light) return surface_colour(points).rgb;
-    return sources.older() ? mean_light(points).rgb : light_colour(points).rgb;
+/// The lights of pbrt-v3 are as bright as their tables say, and go on beyond them. Those of pbrt-v4 end there, and so
+/// do surfaces, but where they were measured as far as light is seen well; indices of refraction have no end.
+Rgb project(std::vector<SpectrumPoint> points, Seen as, const Sources& sources) {
+    const bool shines = as == Seen::light;
+    if (shines && sources.older()) return mean_light_of_lines(points).rgb;
+    const bool ends = as != Seen::index && !sources.older() && points.size() > 1;
+    if (ends) points = dark_beyond_ends(std::move(points), shines ? 360 : 400, shines ? 830 : 700);
+    return shines ? light_colour_of_lines(points).rgb : surface_colour(points).rgb;
 }
 
 std::optional<Rgb> named(const std::string& name, Seen as) {
@@ -56,7 +61,12 @@ std::optional<Rgb> from_values(const Parameter& parameter, Seen as, const Source
         sound = points.empty() || n[i] > points.back().wavelength;
         points.push_back({n[i], n[i + 1]});
     }
-    if (sound) return project(points, as, sources);
+    sound = sound && !points.empty();
+    if (sound && points.size() == 1 && as != Seen::index && !sources.older())
+        sources.report.warn(
+            parameter.where,
+            fmt::format("spectrum '{}' has one wavelength: all are taken alike, where pbrt is black", parameter.name));
+    if (sound) return project(std::move(points), as, sources);
     sources.report.error(parameter.where, fmt::format("spectrum '{}' needs wavelengths, ascending, each with its value",
                                                       parameter.name));
     return std::nullopt;
