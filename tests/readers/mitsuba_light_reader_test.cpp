@@ -77,6 +77,11 @@ TEST(MitsubaEmitters, MayShineOnBothSidesUnseenAndFromADisk) {
     EXPECT_FALSE(emission("")->unseen);
     EXPECT_TRUE(emission("<boolean name='two_sided' value='true'/>")->two_sided);
     EXPECT_TRUE(emission("<boolean name='unseen' value='true'/>")->unseen);
+    const auto unseen = read_mitsuba(
+        "<shape type='sphere'><bsdf type='diffuse'/><emitter type='area'><boolean "
+        "name='unseen' value='true'/></emitter></shape>");
+    EXPECT_EQ(colour_of(unseen, unseen.materials[unseen.shapes[0].material].opacity.value()), (Rgb{0, 0, 0}));
+    EXPECT_EQ(warnings_of(unseen), "");
     const auto sun =
         read_mitsuba("<shape type='sphere'/><emitter type='directional'><float name='angle' value='2'/></emitter>");
     EXPECT_NEAR(std::get<DirectionalLight>(sun.lights.at(0)).half_angle, 0.0174533f, 1e-6f);

@@ -342,5 +342,30 @@ TEST(MitsubaBsdfs, MayBeNestedButNotForEver) {
         << "each doubles what is below";
 }
 
+TEST(MitsubaMaterials, KnowDielectricsInAnyCase) {
+    const auto eta = [](const std::string& name) {
+        const auto scene =
+            read_mitsuba_bsdf("<bsdf type='dielectric'><string name='int_ior' value='" + name + "'/></bsdf>");
+        return std::get<DielectricMaterial>(scene.materials[scene.shapes[0].material].model).eta;
+    };
+    EXPECT_EQ(eta("Water"), eta("water"));
+    EXPECT_THAT(errors_of_mitsuba("<shape type='sphere'><bsdf type='dielectric'><string name='int_ior' value='Wader'/>"
+                                  "</bsdf></shape>"),
+                HasSubstr("there is no dielectric 'Wader' (did you mean 'water'?)"));
+}
+
+TEST(MitsubaMaterials, TakeRawNumbers) {
+    const auto colour = [](const std::string& value) {
+        const auto scene = read_mitsuba_bsdf("<bsdf type='diffuse'><texture name='reflectance' type='rawconstant'>" +
+                                             value + "</texture></bsdf>");
+        return colour_of(scene, model_of<DiffuseMaterial>(scene).reflectance);
+    };
+    EXPECT_EQ(colour("<float name='value' value='.3'/>"), (Rgb{0.3f, 0.3f, 0.3f}));
+    EXPECT_EQ(colour("<vector name='value' x='.1' y='.2' z='.3'/>"), (Rgb{0.1f, 0.2f, 0.3f}));
+    EXPECT_THAT(errors_of_mitsuba("<shape type='sphere'><bsdf type='diffuse'><texture name='reflectance' "
+                                  "type='rawconstant'/></bsdf></shape>"),
+                HasSubstr("needs a 'value'"));
+}
+
 }  // namespace
 }  // namespace lightnet::test::mitsuba_materials_reader_test

@@ -95,5 +95,38 @@ TEST(MitsubaMedia, ThatAreBrokenAreErrors) {
                 HasSubstr("'g' of a phase function must be between -1 and 1"));
 }
 
+SceneData older_ball_of(const std::string& medium, MemoryFiles files = {}) {
+    return read_as("s.xml",
+                   "<scene version='0.6.0'><luminaire type='constant'/><shape type='sphere'><bsdf type='null'/>" +
+                       medium + "</shape></scene>",
+                   std::move(files));
+}
+
+TEST(MitsubaMedia, OfVersion6HaveADensityThatFillsItsOwnBox) {
+    const std::string medium =
+        "<medium name='interior' type='heterogeneous'><string name='method' value='woodcock'/><float name='scale' "
+        "value='5'/><volume name='density' type='gridvolume'><string name='filename' value='t.vol'/>";
+    const MemoryFiles files{{"t.vol", volume(2, 1, {1, 3})}};
+    const auto scene = older_ball_of(medium + "</volume></medium>", files);
+    EXPECT_EQ(scene.media.at(0).extinction.at({-0.5f, 0.5f, 0.5f}), (Rgb{5, 5, 5}));
+    EXPECT_EQ(scene.media.at(0).extinction.at({0, 0.5f, 0.5f}), (Rgb{10, 10, 10}));
+    EXPECT_THAT(scene.warnings, IsEmpty()) << warnings_of(scene);
+    const auto moved = older_ball_of(medium +
+                                         "<point name='min' x='9' y='0' z='0'/><point name='max' x='11' y='1' "
+                                         "z='1'/></volume></medium>",
+                                     files);
+    EXPECT_EQ(moved.media.at(0).extinction.at({10, 0.5f, 0.5f}), (Rgb{10, 10, 10}));
+}
+
+TEST(MitsubaMedia, OfVersion6ByNamesAreNotKnown) {
+    const auto said = [](const std::string& more) {
+        return warnings_of(older_ball_of("<medium name='interior' type='homogeneous'>" + more + "</medium>"));
+    };
+    EXPECT_THAT(said(""), HasSubstr("the coefficients of the medium 'skin1' are not known"));
+    EXPECT_THAT(said("<string name='material' value='milk'/>"), HasSubstr("of the medium 'milk' are not known"));
+    EXPECT_EQ(said("<spectrum name='sigmaA' value='1'/>"), "");
+    EXPECT_THAT(ball_of("<medium name='interior' type='homogeneous'/>").warnings, IsEmpty());
+}
+
 }  // namespace
 }  // namespace lightnet::test::mitsuba_media_reader_test

@@ -255,5 +255,63 @@ TEST(MitsubaEnvironments, HaveTheirMiddleAtPlusZ) {
     EXPECT_EQ(right, (Vec3{-1, 0, 0}));
 }
 
+TEST(MitsubaMerge, IsWhatItConsistsOf) {
+    const std::string parts =
+        "<shape type='merge' id='m'><shape type='cube'/><shape type='merge'><shape "
+        "type='sphere'/></shape></shape>";
+    const auto scene = read_mitsuba(parts);
+    ASSERT_EQ(scene.shapes.size(), 2u);
+    EXPECT_TRUE(std::holds_alternative<Sphere>(scene.shapes[1].geometry));
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("merge")));
+    const auto grouped = read_mitsuba("<shape type='shapegroup' id='g'>" + parts +
+                                      "</shape><shape type='instance'><ref id='g'/></shape>");
+    EXPECT_EQ(grouped.objects.at(0).shapes.size(), 2u);
+    EXPECT_THAT(errors_of_mitsuba("<shape type='merge' id='m'><shape type='cube'/><ref id='m'/></shape>"),
+                HasSubstr("merged too deeply"));
+}
+
+const std::string lamp = "<emitter type='area'><rgb name='radiance' value='3'/></emitter>";
+
+std::string masked(const std::string& opacity) {
+    return "<bsdf type='mask'>" + opacity + "<bsdf type='diffuse'/></bsdf>";
+}
+
+// there, emission does not ask what the bsdf lets through
+TEST(MitsubaLamps, ShineAlsoWhereTheirSurfaceIsNotThere) {
+    const auto with = [](const std::string& bsdf) {
+        return read_mitsuba("<shape type='sphere'>" + bsdf + lamp + "</shape>");
+    };
+    const auto half = with(masked("<float name='opacity' value='.5'/>"));
+    EXPECT_EQ(half.shapes[0].emission.value().radiance, (Rgb{6, 6, 6}));
+    for (const std::string& bsdf : {std::string("<bsdf type='null'/>"), masked("<float name='opacity' value='0'/>")}) {
+        const auto scene = with(bsdf);
+        EXPECT_EQ(scene.shapes[0].emission.value().radiance, (Rgb{3, 3, 3}));
+        EXPECT_TRUE(scene.shapes[0].emission->unseen);
+        EXPECT_EQ(colour_of(scene, scene.materials[scene.shapes[0].material].opacity.value()), (Rgb{0, 0, 0}));
+        EXPECT_THAT(warnings_of(scene), HasSubstr("shines, but the picture does not show the lamp itself"));
+    }
+    EXPECT_THAT(warnings_of(with(masked("<texture type='checkerboard' name='opacity'/>"))),
+                HasSubstr("the lamp is left out where 'mask'"));
+    EXPECT_THAT(warnings_of(with("<bsdf type='null'/><medium name='interior' type='homogeneous'/>")),
+                HasSubstr("only bounds a medium is left out: it is dark"));
+    EXPECT_THAT(warnings_of(with("")), Not(HasSubstr("lamp")));
+}
+
+TEST(MitsubaOlderShapes, NameMaterialsOfObjThatAreLeftOut) {
+    const auto with = [](const std::string& version, const std::string& more) {
+        return warnings_of(read_as("s.xml",
+                                   "<scene version='" + version +
+                                       "'><shape type='obj'><string name='filename' "
+                                       "value='a.obj'/>" +
+                                       more + "</shape></scene>",
+                                   {{"a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"}}));
+    };
+    const auto named = HasSubstr("the materials that 'a.obj' names are left out: it is grey");
+    EXPECT_THAT(with("0.6.0", ""), named);
+    EXPECT_THAT(with("0.6.0", "<bsdf type='plastic'/>"), Not(named));
+    EXPECT_THAT(with("0.6.0", "<boolean name='loadMaterials' value='false'/>"), Not(named));
+    EXPECT_THAT(with("3.0.0", ""), Not(named));
+}
+
 }  // namespace
 }  // namespace lightnet::test::mitsuba_shapes_reader_test

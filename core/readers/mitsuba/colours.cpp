@@ -64,10 +64,8 @@ constexpr bool shines = std::is_same_v<Colour, LightColour>;
 /// measured no further, and go on so.
 template <class Colour>
 Colour of_table(std::vector<SpectrumPoint> points) {
-    constexpr float none = 0, endless = 1e6f, low = shines<Colour> ? 360 : 400, high = shines<Colour> ? 830 : 700;
-    const float first = points.front().wavelength, last = points.back().wavelength;
-    if (first > low) points.insert(points.begin(), {std::nextafter(first, none), 0});
-    if (last < high) points.push_back({std::nextafter(last, endless), 0});
+    points =
+        shines<Colour> ? dark_beyond_ends(std::move(points), 360, 830) : dark_beyond_ends(std::move(points), 400, 700);
     if constexpr (shines<Colour>)
         return mean_light_of_lines(points);
     else
@@ -264,13 +262,13 @@ Rgb indices_of(Properties& properties, std::string_view name, const std::string&
                             [&](const auto& known) { return known.name == word; });
     };
     if (!given) return alike(named(fallback)->value);
-    const auto word = given->attribute("value");
+    const std::string word = lower_case(given->attribute("value"));
     if (const auto known = named(word); known != dielectrics.end()) return alike(known->value);
     if (given->tag == "string") {
         std::vector<std::string> names;
         for (const auto& known : dielectrics) names.emplace_back(known.name);
-        context.error(*given,
-                      fmt::format("there is no dielectric '{}'{}", word.substr(0, 32), did_you_mean(word, names)));
+        context.error(*given, fmt::format("there is no dielectric '{}'{}", given->attribute("value").substr(0, 32),
+                                          did_you_mean(word, names)));
         return alike(named(fallback)->value);
     }
     if (!is_colour(*given)) {

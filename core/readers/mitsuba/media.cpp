@@ -29,6 +29,16 @@ Matrix to_unit(const Box& box) {
     return result;
 }
 
+/// Of version 0.6, which takes a homogeneous medium without coefficients by a name.
+void name_unknown(Properties& properties) {
+    for (const char* name : {"sigma_t", "albedo", "sigma_a", "sigma_s"})
+        if (properties.has(name)) return;
+    properties.context().warn(properties.node(),
+                              fmt::format("the coefficients of the medium '{}' are not known: a 'sigma_t' of 1 and an "
+                                          "'albedo' of 0.75 are taken, which look otherwise",
+                                          properties.text("material", "skin1").substr(0, 32)));
+}
+
 }  // namespace
 
 std::optional<MediumSides> Media::sides(Properties& shape) {
@@ -62,8 +72,9 @@ std::uint16_t Media::made(const Node& node) {
 Medium Media::medium(Properties& properties) {
     const Node& node = properties.node();
     Medium medium;
-    properties.ignore(
-        {"sample_emitters", "has_spectral_extinction", "majorant_grid_resolution", "majorant_resolution_factor"});
+    if (context_.document.version == 0 && node.type == "homogeneous") name_unknown(properties);
+    properties.ignore({"method", "step_size", "sample_emitters", "has_spectral_extinction", "majorant_grid_resolution",
+                       "majorant_resolution_factor"});
     if (std::find(known_media.begin(), known_media.end(), node.type) == known_media.end()) {
         properties.ignore_all();
         context_.warn(node, fmt::format("medium '{}' is not supported{}: the space is taken as empty", node.type,
@@ -80,7 +91,8 @@ Medium Media::medium(Properties& properties) {
             context_.error(node, "'sigma_a' and 'sigma_s' can't be grids: give 'sigma_t' and 'albedo'");
         medium.extinction.value = absorbed.value + medium.albedo.value;
     } else {
-        take(properties, "sigma_t", {1, 1, 1}, medium.extinction);
+        const bool older = properties.has("density");  // as version 0.6 has it
+        take(properties, older ? "density" : "sigma_t", {1, 1, 1}, medium.extinction);
         take(properties, "albedo", {0.75f, 0.75f, 0.75f}, medium.albedo);
     }
     const float scale = properties.number("scale", 1);
@@ -133,10 +145,12 @@ VolumeField Media::grid(Properties& properties) {
     const Node* name = properties.find("filename");
     VolumeGrid how;
     how.nearest = properties.text("filter_type", "trilinear") == "nearest";
-    const bool own_box = properties.boolean("use_grid_bbox", false);
+    // version 0.6 has no unit cubes, but 'min' and 'max' of its own
+    const bool older = context_.document.version == 0;
+    const bool own_box = properties.boolean("use_grid_bbox", older);
     if (properties.text("wrap_mode", "clamp") != "clamp")
         context_.warn(properties.node(), "a volume does not repeat: 'clamp' is taken");
-    properties.ignore({"raw", "max_value", "accel"});
+    properties.ignore({"raw", "max_value", "accel", "send_data"});
     if (!name) {
         context_.error(properties.node(), fmt::format("{} needs a 'filename'", properties.owner()));
         return field;
@@ -147,7 +161,9 @@ VolumeField Media::grid(Properties& properties) {
     try {
         const auto file = read_volume_file(**bytes, how);
         field.grid = file.grid;
-        place(properties, own_box ? to_unit(file.box) : Matrix{}, field);
+        const Box box =
+            older ? Box{properties.point("min", file.box.low), properties.point("max", file.box.high)} : file.box;
+        place(properties, own_box ? to_unit(box) : Matrix{}, field);
     } catch (const Error& problem) {
         context_.report().error({path, 0}, problem.what());
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -28,6 +29,12 @@ const Node* Context::resolved(const Node& node) const {
 
 std::string Context::path(const std::string& name, const Node& node) const {
     return path_of(assets, document, node.where.file, name);
+}
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
 }
 
 std::optional<double> number(std::string_view text, const Node& node, const Context& context) {

@@ -27,6 +27,8 @@ struct Context {
     std::string path(const std::string& name, const Node& node) const;
 };
 
+/// Of ASCII.
+std::string lower_case(std::string_view text);
 /// Numbers with spaces or commas between them. None: reported.
 std::optional<std::vector<double>> numbers(std::string_view text, const Node& node, const Context& context);
 /// A number, or the word of a fallback. None: reported.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -40,11 +39,6 @@ FilmData film_of(Properties& sensor) {
             *given[0], "the response functions of 'specfilm' are left out: the picture is in red, green and blue");
     properties.ignore_all();  // how pictures are written is the graph's business
     return film;
-}
-
-std::string lower_case(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
 }
 
 /// tan(fov / 2) along the diagonal of a film of 35 mm, which lengths of lenses mean in Mitsuba; 50 mm if none is given.

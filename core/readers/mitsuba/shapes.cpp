@@ -25,9 +25,9 @@ namespace {
 
 constexpr std::uint64_t most_triangles = std::uint64_t{1} << 30;
 
-const std::vector<std::string> known_shapes{"obj",      "ply",        "serialized",   "rectangle",
-                                            "cube",     "disk",       "sphere",       "cylinder",
-                                            "instance", "shapegroup", "bsplinecurve", "linearcurve"};
+const std::vector<std::string> known_shapes{"obj",          "ply",         "serialized", "rectangle", "cube",
+                                            "disk",         "sphere",      "cylinder",   "instance",  "shapegroup",
+                                            "bsplinecurve", "linearcurve", "merge"};
 
 void turn_uvs(Mesh& mesh) {
     for (auto& uv : mesh.uvs) uv.y = 1 - uv.y;
@@ -54,7 +54,24 @@ void Shapes::add(const Node& node) {
         Properties properties(node, context_);
         return instance(properties);
     }
-    shape(node, false);
+    for (const Node* part : merged(node, 0)) shape(*part, false);
+}
+
+/// What a shape of type 'merge' consists of, or the shape itself.
+std::vector<const Node*> Shapes::merged(const Node& shape, int depth) const {
+    constexpr int deepest = 16;
+    if (shape.type != "merge") return {&shape};
+    if (depth == deepest) {
+        context_.error(shape, "shapes are merged too deeply");
+        return {};
+    }
+    std::vector<const Node*> all;
+    Properties properties(shape, context_);
+    for (const Node* part : properties.objects("shape")) {
+        const auto parts = merged(*part, depth + 1);
+        all.insert(all.end(), parts.begin(), parts.end());
+    }
+    return all;
 }
 
 std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
@@ -68,6 +85,7 @@ std::optional<std::uint32_t> Shapes::shape(const Node& node, bool in_group) {
         context_.warn(node, "lamps inside of a shapegroup are left out: they are dark");
         emission.reset();
     }
+    if (emission && !shine_alone(node, media.has_value(), material, *emission)) emission.reset();
     if (!geometry) return std::nullopt;
     size_ += pieces_of(*geometry);
     if (size_ > most_triangles) {
@@ -220,6 +238,11 @@ std::optional<Mesh> Shapes::decoded(Properties& properties, const Node& name, bo
         Mesh mesh;
         if (type == "obj") {
             auto model = obj::read_model(**bytes, path, obj::Cut::nowhere, context_.report());
+            const bool own_materials = properties.boolean("load_materials", true) && context_.document.version == 0;
+            if (own_materials && !model.libraries.empty() && properties.objects("bsdf").empty())
+                context_.warn(properties.node(), fmt::format("the materials that '{}' names are left out: it is grey, "
+                                                             "as its shape has no bsdf",
+                                                             path));
             if (!model.parts.empty()) mesh = std::move(model.parts[0].mesh);
         } else if (type == "ply") {
             auto read = attribute.empty() ? AttributedMesh{read_ply(**bytes), {}, true} : read_ply(**bytes, attribute);
@@ -292,6 +315,35 @@ std::optional<AreaEmission> Shapes::emission(Properties& properties) {
     return emission;
 }
 
+/// In Mitsuba a lamp shines where its surface is not there, too; here as far as it is there. False: it can't.
+bool Shapes::shine_alone(const Node& shape, bool fills, MaterialId& id, AreaEmission& emission) const {
+    Assets& assets = context_.assets;
+    const Material& material = assets.scene().materials[id];
+    const Texture* opacity = material.opacity ? &assets.scene().textures[*material.opacity] : nullptr;
+    const bool even = !opacity || std::holds_alternative<std::monostate>(opacity->pattern);
+    const float there = std::holds_alternative<NoMaterial>(material.model) ? 0 : opacity ? opacity->scale.r : 1;
+    if (!even && !emission.unseen) {
+        context_.warn(shape, "the lamp is left out where 'mask' leaves nothing of its surface: it is dark there");
+        return true;
+    }
+    if (there > 0 && !emission.unseen) {
+        emission.radiance *= 1 / std::min(there, 1.0f);
+        return true;
+    }
+    if (fills) {
+        context_.warn(shape, "the lamp of a surface that only bounds a medium is left out: it is dark");
+        return false;
+    }
+    if (!emission.unseen)
+        context_.warn(shape, "a lamp without a surface shines, but the picture does not show the lamp itself");
+    emission.unseen = true;
+    if (even && opacity && there <= 0) return true;
+    Material nothing{"", DiffuseMaterial{assets.grey(0)}};
+    nothing.opacity = assets.grey(0);
+    id = assets.add(std::move(nothing));
+    return true;
+}
+
 /// A medium that only absorbs colours the light inside of its glass. Is it one? Others are media in space.
 bool Shapes::absorb(Properties& properties, MaterialId& id) {
     for (const auto& child : properties.node().children) {
@@ -334,12 +386,12 @@ std::optional<std::uint32_t> Shapes::group(const Node& node) {
     Properties properties(node, context_);
     Object object;
     object.name = node.id;
-    for (const Node* part : properties.objects("shape")) {
-        if (part->type == "instance" || part->type == "shapegroup")
-            context_.error(*part, "there can be no instances inside of a shapegroup");
-        else if (const auto made = shape(*part, true))
-            object.shapes.push_back(*made);
-    }
+    for (const Node* given : properties.objects("shape"))
+        for (const Node* part : merged(*given, 0))
+            if (part->type == "instance" || part->type == "shapegroup")
+                context_.error(*part, "there can be no instances inside of a shapegroup");
+            else if (const auto made = shape(*part, true))
+                object.shapes.push_back(*made);
     auto& objects = context_.assets.scene().objects;
     objects.push_back(std::move(object));
     return groups_[&node] = static_cast<std::uint32_t>(objects.size() - 1);

@@ -38,6 +38,8 @@ private:
     MaterialId material(Properties& properties, bool lamp);
     std::optional<AreaEmission> emission(Properties& properties);
     bool absorb(Properties& properties, MaterialId& id);
+    bool shine_alone(const Node& shape, bool fills, MaterialId& id, AreaEmission& emission) const;
+    std::vector<const Node*> merged(const Node& shape, int depth) const;
     void instance(Properties& properties);
     std::optional<std::uint32_t> group(const Node& node);
 

@@ -89,6 +89,7 @@ TextureId Textures::make(const Node& node) {
     if (node.type == "bitmap") return bitmap(properties);
     if (node.type == "checkerboard") return checkerboard(properties);
     if (node.type == "scale") return scaled(properties);
+    if (node.type == "rawconstant") return raw(properties);
     if (node.type == "vertexcolors") return context_.assets.add({{1, 1, 1}, VertexColour{}, false});
     if (node.type == "mesh_attribute") {
         const float scale = properties.number("scale", 1);
@@ -132,6 +133,14 @@ TextureId Textures::checkerboard(Properties& properties) {
     squares.uv.scale = squares.uv.scale * 2;
     squares.uv.offset = squares.uv.offset * 2;
     return context_.assets.add({{1, 1, 1}, squares, false});
+}
+
+/// Numbers as they are, one or three.
+TextureId Textures::raw(Properties& properties) {
+    const Node* value = properties.find("value");
+    if (!value) context_.error(properties.node(), fmt::format("{} needs a 'value'", properties.owner()));
+    const auto numbers = value ? triple(*value, context_, 0) : std::nullopt;
+    return numbers ? context_.assets.colour({numbers->x, numbers->y, numbers->z}) : context_.assets.grey(0.5f);
 }
 
 TextureId Textures::scaled(Properties& properties) {

@@ -34,6 +34,7 @@ private:
     TextureId bitmap(Properties& properties);
     TextureId checkerboard(Properties& properties);
     TextureId scaled(Properties& properties);
+    TextureId raw(Properties& properties);
 
     const Context& context_;
     bool shines_ = false;                                                    // what is being made
