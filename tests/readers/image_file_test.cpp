@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "tests/support/memory_files.hpp"
@@ -121,14 +122,15 @@ TEST(Hdr, ReadsPlainPixelsAndOldRuns) {
 
 TEST(Tiff, ReadsWholeNumbersAndFloatsInStripsAndTiles) {
     for (const int bits : {8, 16, 32})
-        for (const bool tiles : {false, true}) {
-            const Image image = read(test::tiff(bits, tiles), {Encoding::Curve::linear, 1});
+        for (const auto& [tiles, apart] : {std::pair{false, false}, {true, false}, {false, true}, {true, true}}) {
+            const Image image = read(test::tiff(bits, tiles, apart), {Encoding::Curve::linear, 1});
             ASSERT_EQ(image.width, 20u);
             ASSERT_EQ(image.height, 18u);
             const float one = bits == 32 ? 1 : bits == 16 ? 1 / 65535.0f : 1 / 255.0f;
             for (const std::uint32_t y : {0u, 5u, 17u})
                 for (const std::uint32_t x : {0u, 15u, 16u, 19u}) {
-                    EXPECT_NEAR(image.colour(x, y).r, float(x) * one, 1e-6f) << bits << " bits, tiles: " << tiles;
+                    EXPECT_NEAR(image.colour(x, y).r, float(x) * one, 1e-6f)
+                        << bits << " bits, tiles: " << tiles << ", colour by colour: " << apart;
                     EXPECT_NEAR(image.colour(x, y).g, float(y) * one, 1e-6f);
                     EXPECT_NEAR(image.colour(x, y).b, one, 1e-6f);
                 }

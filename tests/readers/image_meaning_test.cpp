@@ -80,6 +80,7 @@ TEST(Exr, TurnsOtherPrimariesIntoOurs) {
         {3.240970f - 1.537383f * 1.125f - 0.498611f * 1.25f, -0.969244f + 1.875968f * 1.125f + 0.041555f * 1.25f,
          0.055630f - 0.203977f * 1.125f + 1.056972f * 1.25f},
         1e-3f);
+    expect_near(read(windowed_exr({.channels = {"X", "Y", "Z"}})).colour(1, 0), absolute.colour(1, 0), 1e-5f);
     // of other primaries, white stays white: ACES AP0 with white D60
     const std::vector<float> aces{0.7347f, 0.2653f, 0, 1, 0.0001f, -0.077f, 0.32168f, 0.33767f};
     const Rgb grey =

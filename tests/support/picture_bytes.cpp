@@ -94,28 +94,35 @@ std::vector<std::uint8_t> tiff_pixel(int bits, std::uint32_t x, std::uint32_t y)
 
 }  // namespace
 
-std::string tiff(int bits, bool tiles) {
+std::string tiff(int bits, bool tiles, bool apart) {
     constexpr std::uint32_t width = 20, height = 18, tile = 16;
     return tiff_of(width, height, std::uint16_t(bits), [&](TIFF* file) {
         TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 3);
         TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
         if (bits == 32) TIFFSetField(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
         if (tiles) TIFFSetField(file, TIFFTAG_TILEWIDTH, tile), TIFFSetField(file, TIFFTAG_TILELENGTH, tile);
-        const auto pixels_of = [&](std::uint32_t first, std::uint32_t y, std::uint32_t count) {
-            std::vector<std::uint8_t> row;
-            for (std::uint32_t x = first; x < first + count; ++x)
-                for (const auto byte : tiff_pixel(bits, x, y)) row.push_back(byte);
-            return row;
-        };
-        for (std::uint32_t y = 0; y < height && !tiles; ++y)
-            TIFFWriteScanline(file, pixels_of(0, y, width).data(), y, 0);
-        for (std::uint32_t y = 0; y < height && tiles; y += tile)
-            for (std::uint32_t x = 0; x < width; x += tile) {
-                std::vector<std::uint8_t> all;
-                for (std::uint32_t row = y; row < y + tile; ++row)
-                    for (const auto byte : pixels_of(x, row, tile)) all.push_back(byte);
-                TIFFWriteTile(file, all.data(), x, y, 0, 0);
-            }
+        if (apart) TIFFSetField(file, TIFFTAG_PLANARCONFIG, PLANARCONFIG_SEPARATE);
+        const std::size_t sample = std::size_t(bits) / 8;
+        for (std::uint16_t plane = 0; plane < (apart ? 3 : 1); ++plane) {
+            const auto pixels_of = [&](std::uint32_t first, std::uint32_t y, std::uint32_t count) {
+                std::vector<std::uint8_t> row;
+                for (std::uint32_t x = first; x < first + count; ++x) {
+                    const auto pixel = tiff_pixel(bits, x, y);
+                    const auto from = pixel.begin() + std::ptrdiff_t(plane * sample);
+                    row.insert(row.end(), from, apart ? from + std::ptrdiff_t(sample) : pixel.end());
+                }
+                return row;
+            };
+            for (std::uint32_t y = 0; y < height && !tiles; ++y)
+                TIFFWriteScanline(file, pixels_of(0, y, width).data(), y, plane);
+            for (std::uint32_t y = 0; y < height && tiles; y += tile)
+                for (std::uint32_t x = 0; x < width; x += tile) {
+                    std::vector<std::uint8_t> all;
+                    for (std::uint32_t row = y; row < y + tile; ++row)
+                        for (const auto byte : pixels_of(x, row, tile)) all.push_back(byte);
+                    TIFFWriteTile(file, all.data(), x, y, 0, plane);
+                }
+        }
     });
 }
 

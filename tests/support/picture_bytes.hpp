@@ -17,8 +17,9 @@ std::string jpeg(std::uint8_t value, int channels);
 std::string exr(const std::vector<std::string>& channels);
 /// 70 x 50 pixels in tiles of 32 x 32 with smaller levels, as textures are kept; each is {x, y, 1}.
 std::string tiled_exr();
-/// 20 x 18 pixels, each {x, y, 1}, of 8 or 16 bits or (32) floats in tiles of 16 x 16 or in strips, packed.
-std::string tiff(int bits, bool tiles);
+/// 20 x 18 pixels, each {x, y, 1}, of 8 or 16 bits or (32) floats in tiles of 16 x 16 or in strips, packed;
+/// `apart`: colour by colour.
+std::string tiff(int bits, bool tiles, bool apart = false);
 /// Two pixels beside each other, of a palette: red, and a blue that is half of 255; `turned`: how cameras say it was
 /// held.
 std::string palette_tiff(int turned = 1);

@@ -82,6 +82,7 @@ struct Window {
 struct Names {
     std::string red, green, blue, alpha;
     bool chroma = false;  // brightness, and colours of fewer pixels
+    bool xyz = false;     // red is CIE's X, green Y, blue Z
 
     bool grey() const { return !chroma && green.empty() && blue.empty(); }
 };
@@ -96,6 +97,8 @@ Names names_in(const Imf::ChannelList& channels, const std::string& layer) {
     if (colours >= 2) return names;
     if (colours == 1) return {names.red + names.green + names.blue, "", "", names.alpha};
     const std::string bright = named("Y");
+    if (!bright.empty() && !named("X").empty() && !named("Z").empty())
+        return {named("X"), bright, named("Z"), names.alpha, false, true};
     const bool chroma = !bright.empty() && !named("RY").empty() && !named("BY").empty();
     return {bright, "", "", names.alpha, chroma};
 }
@@ -120,7 +123,9 @@ Names names_in(const Imf::ChannelList& channels) {
 }
 
 Image finished(const Imf::Header& header, const Names& names, std::vector<Rgb> pixels, std::vector<float> alpha) {
-    if (Imf::hasChromaticities(header) && !names.grey()) {
+    if (names.xyz) {
+        turn_to_ours(cie_xyz, pixels);
+    } else if (Imf::hasChromaticities(header) && !names.grey()) {
         const auto& said = Imf::chromaticities(header);
         const auto place = [](const Imath::V2f& at) { return Primaries::Place{double{at.x}, double{at.y}}; };
         turn_to_ours({place(said.red), place(said.green), place(said.blue), place(said.white)}, pixels);

@@ -104,8 +104,10 @@ struct Layout {
         const bool whole = format == SAMPLEFORMAT_UINT && (bits == 8 || bits == 16);
         const bool rgb = colours == PHOTOMETRIC_RGB && (channels == 3 || channels == 4);
         const bool grey = colours == PHOTOMETRIC_MINISBLACK && channels <= 2;
-        return planes == PLANARCONFIG_CONTIG && (whole || floats()) && (rgb || grey);
+        return (whole || floats()) && (rgb || grey);
     }
+    /// Do they stand colour by colour?
+    bool apart() const { return planes == PLANARCONFIG_SEPARATE && channels > 1; }
     bool floats() const { return format == SAMPLEFORMAT_IEEEFP && bits == 32; }
     std::size_t row() const { return std::size_t{width} * channels * bits / 8; }
 };
@@ -122,30 +124,43 @@ Layout layout_of(TIFF* tiff) {
     return found;
 }
 
-// Samples in the order of this machine, row by row.
-std::vector<std::uint8_t> rows_of(const OpenTiff& tiff, const Layout& layout) {
-    std::vector<std::uint8_t> rows(layout.row() * layout.height);
+/// The samples of one plane, of `pixel` bytes for each pixel, in the order of this machine, row by row.
+std::vector<std::uint8_t> plane_of(const OpenTiff& tiff, const Layout& layout, std::size_t pixel, std::uint16_t plane) {
+    const std::size_t length = layout.width * pixel;
+    std::vector<std::uint8_t> rows(length * layout.height);
     if (!TIFFIsTiled(tiff)) {
-        tiff.must(static_cast<std::size_t>(TIFFScanlineSize64(tiff)) == layout.row());
+        tiff.must(static_cast<std::size_t>(TIFFScanlineSize64(tiff)) == length);
         for (std::uint32_t y = 0; y < layout.height; ++y)
-            tiff.must(TIFFReadScanline(tiff, rows.data() + y * layout.row(), y, 0) == 1);
+            tiff.must(TIFFReadScanline(tiff, rows.data() + y * length, y, plane) == 1);
         return rows;
     }
     std::uint32_t width = 0, height = 0;
     TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
     TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
     check_size(width, height);
-    const std::size_t pixel = std::size_t{layout.channels} * layout.bits / 8;
     std::vector<std::uint8_t> tile(pixel * width * height);
     tiff.must(static_cast<std::size_t>(TIFFTileSize64(tiff)) == tile.size());
     for (std::uint32_t y = 0; y < layout.height; y += height)
         for (std::uint32_t x = 0; x < layout.width; x += width) {
-            tiff.must(TIFFReadTile(tiff, tile.data(), x, y, 0, 0) >= 0);
+            tiff.must(TIFFReadTile(tiff, tile.data(), x, y, 0, plane) >= 0);
             const std::size_t across = std::min(width, layout.width - x), down = std::min(height, layout.height - y);
             for (std::size_t row = 0; row < down; ++row)
-                std::memcpy(rows.data() + (y + row) * layout.row() + x * pixel, tile.data() + row * width * pixel,
+                std::memcpy(rows.data() + (y + row) * length + x * pixel, tile.data() + row * width * pixel,
                             across * pixel);
         }
+    return rows;
+}
+
+/// The samples of each pixel beside each other.
+std::vector<std::uint8_t> rows_of(const OpenTiff& tiff, const Layout& layout) {
+    const std::size_t sample = layout.bits / 8, pixel = sample * layout.channels;
+    if (!layout.apart()) return plane_of(tiff, layout, pixel, 0);
+    std::vector<std::uint8_t> rows(layout.row() * layout.height);
+    for (std::uint16_t channel = 0; channel < layout.channels; ++channel) {
+        const auto plane = plane_of(tiff, layout, sample, channel);
+        for (std::size_t i = 0; i * sample < plane.size(); ++i)
+            std::memcpy(&rows[i * pixel + channel * sample], &plane[i * sample], sample);
+    }
     return rows;
 }
 
@@ -169,7 +184,7 @@ Raster raster_of(const Layout& layout, std::vector<std::uint8_t> rows) {
     return raster;
 }
 
-// Palettes, few bits, planes, CMYK, YCbCr.
+// Palettes, few bits, CMYK, YCbCr.
 Raster turned_into_eight_bits(const OpenTiff& tiff, const Layout& layout) {
     char why[1024] = "";
     if (!TIFFRGBAImageOK(tiff, why)) throw Error("TIFF: " + std::string(why));
