@@ -104,6 +104,14 @@ TEST(GltfLeftOut, IsSaidOnceWhereTheFileNamesTheExtension) {
     EXPECT_THAT(said, Not(HasSubstr("nodes.extensions")));
 }
 
+TEST(GltfLeftOut, IsNotWhatNoPictureShows) {
+    const std::string said = warnings(
+        R"("extensionsUsed":["KHR_xmp_json_ld"],"extensionsRequired":["KHR_xmp_json_ld"],"extensions":{"KHR_xmp_json_ld":
+        {"packets":[{"a":1}]}},"nodes":[{"mesh":0}],"meshes":[{"extensions":{"KHR_xmp_json_ld":{"packet":0}},
+        "primitives":[{"attributes":{"POSITION":0}}]}],)");
+    EXPECT_THAT(said, Not(HasSubstr("left out")));
+}
+
 TEST(GltfLeftOut, AreRangesAndOldGloss) {
     const std::string said = warnings(R"("nodes":[{"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}}],
         "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","range":3}]}},

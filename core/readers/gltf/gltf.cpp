@@ -40,17 +40,26 @@ const std::set<std::string, std::less<>> known_extensions{"KHR_materials_transmi
                                                           "KHR_materials_emissive_strength",
                                                           "KHR_materials_pbrSpecularGlossiness"};
 
+/// Which say what no picture shows: of metadata, and of what a mouse may do.
+const std::set<std::string, std::less<>> without_pictures{
+    "KHR_xmp",           "KHR_xmp_json_ld",         "KHR_node_selectability", "KHR_node_hoverability",
+    "KHR_interactivity", "EXT_structural_metadata", "EXT_mesh_features",      "EXT_instance_features"};
+
+bool known(const std::string& extension) {
+    return known_extensions.contains(extension) || without_pictures.contains(extension);
+}
+
 void check_extensions(const At& root) {
     std::set<std::string> required;
     const At list = root["extensionsRequired"], used = root["extensionsUsed"];
     for (std::size_t i = 0; i < list.size(); ++i) required.insert(list[i].text(""));
     for (const auto& name : required)
-        if (!known_extensions.contains(name))
+        if (!known(name))
             root.report().error(
                 {root.file(), 0},
                 fmt::format("the file needs the extension '{}', which is not supported", name.substr(0, 64)));
     for (std::size_t i = 0; i < used.size(); ++i)
-        if (const auto name = used[i].text(""); !known_extensions.contains(name) && !required.contains(name))
+        if (const auto name = used[i].text(""); !known(name) && !required.contains(name))
             root.warn(fmt::format("extension '{}' is left out: the picture shows nothing of it", name.substr(0, 64)));
 }
 
