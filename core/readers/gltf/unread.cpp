@@ -105,7 +105,13 @@ private:
         if (has(harmless, own)) return;
         // an extension that the file names is named already
         if ((own.ends_with("extensions." + name) && used_.contains(name)) || empty(member)) return;
+        if (name == "extensions" && all_used(member)) return;
         report_.warn(where_, fmt::format("'{}' is left out: the picture shows nothing of it", own.substr(0, 256)));
+    }
+    /// Are these extensions that the file names, all of them?
+    bool all_used(const Json& extensions) const {
+        const auto* object = std::get_if<Json::Object>(&extensions.data);
+        return object && std::ranges::all_of(*object, [&](const auto& member) { return used_.contains(member.first); });
     }
     /// Says nothing: {} or [].
     static bool empty(const Json& value) {
