@@ -37,6 +37,26 @@ TEST(GltfAnisotropy, IsReadWithItsTurnAndTexture) {
     EXPECT_FLOAT_EQ(look_up(scene.textures, grooves.texture.value(), {}).b, 0.25f);
 }
 
+// PAM, of one pixel: its colours are sRGB, its alpha is not
+TEST(GltfGloss, IsReadWithItsTexture) {
+    const std::string pixel = std::string("P7\nWIDTH 1\nHEIGHT 1\nDEPTH 4\nMAXVAL 255\nTUPLTYPE RGB_ALPHA\nENDHDR\n") +
+                              std::string("\xff\xbc\x00\x33", 4);
+    const auto scene =
+        read_as("a.glb",
+                triangle_text().file(
+                    R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+        "images":[{"uri":"p.pam"}],"textures":[{"source":0}],"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":
+        {"specularFactor":[0.04,0.04,0.04],"glossinessFactor":0.5,"specularGlossinessTexture":{"index":0}}}}],)"),
+                {{"p.pam", pixel}});
+    const auto& model = model_of<PrincipledMaterial>(scene);
+    EXPECT_FLOAT_EQ(model.roughness.u, 1);
+    EXPECT_FLOAT_EQ(red_of(scene, model.roughness.texture), 1 - 0.5f * 0.2f);
+    EXPECT_FLOAT_EQ(model.specular_colour.r, 1);
+    EXPECT_FLOAT_EQ(red_of(scene, model.specular_colour_texture), 1);
+    EXPECT_NEAR(look_up(scene.textures, *model.specular_colour_texture, {}).g, 0.503f, 1e-3f);
+    EXPECT_THAT(warnings_of(scene), Not(HasSubstr("left out")));
+}
+
 TEST(GltfIridescence, IsReadWithItsThickness) {
     const auto scene = with(
         R"("KHR_materials_iridescence":{"iridescenceFactor":0.5,"iridescenceIor":1.8,"iridescenceThicknessMinimum":200,

@@ -192,8 +192,16 @@ void Materials::older(const At& at, PrincipledMaterial& model, bool painted) {
     model.base_colour = base(at["diffuseTexture"], rgb({diffuse[0], diffuse[1], diffuse[2]}), painted);
     model.metallic = 0;
     model.metallic_texture.reset(), model.roughness.texture.reset();
-    model.roughness.u = model.roughness.v = 1 - share(at["glossinessFactor"], 1);
+    const float gloss = share(at["glossinessFactor"], 1);
+    model.roughness.u = model.roughness.v = 1 - gloss;
     model.specular_colour = rgb(at["specularFactor"], {1, 1, 1}) / 0.04f;  // over what an index of 1.5 reflects
+    const At map = at["specularGlossinessTexture"];
+    model.specular_colour_texture = texture(map, Kind::colour, {1, 1, 1});
+    if (const auto glossy = texture(map, Kind::colour, {gloss, gloss, gloss}, Channel::alpha)) {
+        Texture rough = assets_.scene().textures[*glossy];
+        rough.invert = true;
+        model.roughness.texture = assets_.add(rough), model.roughness.u = model.roughness.v = 1;
+    }
 }
 
 void Materials::coat(const At& clear, PrincipledMaterial& model) {
