@@ -87,6 +87,16 @@ TEST(MitsubaEmitters, MayShineOnBothSidesUnseenAndFromADisk) {
     EXPECT_NEAR(std::get<DirectionalLight>(sun.lights.at(0)).half_angle, 0.0174533f, 1e-6f);
 }
 
+TEST(MitsubaColours, OfLightThatNoScreenShowsAreNamed) {
+    const auto said = [](const std::string& colour) {
+        return warnings_of(read_mitsuba("<shape type='sphere'><emitter type='area'>" + colour + "</emitter></shape>"));
+    };
+    const auto cut = testing::HasSubstr("is of a colour that sRGB can't show, and is cut");
+    EXPECT_THAT(said("<spectrum name='radiance' value='585:1, 595:1'/>"), cut);
+    EXPECT_THAT(said("<blackbody name='radiance' temperature='1200'/>"), cut);
+    EXPECT_THAT(said("<spectrum name='radiance' value='400:1, 700:1'/>"), testing::Not(cut));
+}
+
 TEST(MitsubaColours, AreNothingBeyondTheirTables) {
     const Rgb red = reflectance("<spectrum name='reflectance' value='620:.5, 760:.5'/>");
     EXPECT_GT(red.r, 0.2f);

@@ -17,6 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 constexpr float pi = std::numbers::pi_v<float>;
@@ -338,8 +339,13 @@ TEST(PbrtLightSpectra, EndWithTheirTables) {
     EXPECT_GT(red.r, 20 * red.g);
     EXPECT_NEAR(luminance(line), 1, 1e-4f);
     EXPECT_GT(line.g, 2 * line.r);
-    EXPECT_THAT(warnings_of(read_as("s.pbrt", "WorldBegin LightSource \"point\" \"spectrum I\" [550 1]")),
-                HasSubstr("has one wavelength"));
+    const auto said = [](const std::string& parameter) {
+        return warnings_of(read_as("s.pbrt", "WorldBegin LightSource \"point\" " + parameter));
+    };
+    EXPECT_THAT(said("\"spectrum I\" [550 1]"), HasSubstr("has one wavelength"));
+    EXPECT_THAT(said("\"spectrum I\" [554 0 555 1 556 0]"), HasSubstr("spectrum 'I' is of a colour that sRGB can't"));
+    EXPECT_THAT(said("\"blackbody I\" 1500"), HasSubstr("blackbody 'I' is of a colour that sRGB can't"));
+    EXPECT_THAT(said("\"blackbody I\" 3000"), Not(HasSubstr("sRGB")));
 }
 
 }  // namespace

@@ -65,6 +65,16 @@ TEST(Spectra, OfLightOfLuminanceOneKeepTheirLines) {
     EXPECT_NEAR(fine.b, coarse.b, 2e-3f);
 }
 
+TEST(Spectra, MayBeOfColoursThatScreensCantShow) {
+    EXPECT_TRUE(beyond_srgb(std::vector<SpectrumPoint>{{585, 0}, {590, 30}, {595, 0}}));
+    EXPECT_FALSE(beyond_srgb(std::vector<SpectrumPoint>{{380, 1}, {780, 1}}));
+    EXPECT_FALSE(beyond_srgb(std::vector<SpectrumPoint>{{400, 0}, {500, 8}, {600, 15.6f}, {700, 18.4f}}));
+    EXPECT_FALSE(beyond_srgb({}));
+    EXPECT_TRUE(blackbody_beyond_srgb(1500));
+    EXPECT_FALSE(blackbody_beyond_srgb(2700));
+    EXPECT_FALSE(blackbody_beyond_srgb(20000));
+}
+
 TEST(Spectra, MayBeDarkBeyondTheirEnds) {
     const std::vector<SpectrumPoint> some{{500, 1}, {600, 1}};
     const auto dark = dark_beyond_ends(some, 400, 700);

@@ -196,13 +196,34 @@ std::vector<SpectrumPoint> dark_beyond_ends(std::vector<SpectrumPoint> spectrum,
     return spectrum;
 }
 
-LightColour blackbody_colour(float kelvin) {
+namespace {
+
+/// Planck's law, without any scale.
+double planck(double wavelength, double kelvin) {
     constexpr double second_radiation_constant = 1.438776877e7;  // nm·K
-    const auto planck = [&](double w) {
-        return std::pow(w / 560, -5) / std::expm1(second_radiation_constant / (w * kelvin));
-    };
-    const double scale = 1 / planck(780);
-    return {with_luminance_one(balanced([&](double w, double) { return planck(w) * scale; }))};
+    return std::pow(wavelength / 560, -5) / std::expm1(second_radiation_constant / (wavelength * kelvin));
+}
+
+/// By more than the fits of what the eye sees are off.
+bool cut_from(const std::array<double, 3>& rgb) {
+    const auto [least, most] = std::minmax({rgb[0], rgb[1], rgb[2]});
+    return least < -0.005 * most;
+}
+
+}  // namespace
+
+bool beyond_srgb(std::span<const SpectrumPoint> spectrum) {
+    return cut_from(rgb_of(finely([&](double w) { return value_at(spectrum, w); })));
+}
+
+bool blackbody_beyond_srgb(float kelvin) {
+    const double scale = 1 / planck(780, double{kelvin});
+    return cut_from(rgb_of(finely([&](double w) { return planck(w, double{kelvin}) * scale; })));
+}
+
+LightColour blackbody_colour(float kelvin) {
+    const double scale = 1 / planck(780, double{kelvin});
+    return {with_luminance_one(balanced([&](double w, double) { return planck(w, double{kelvin}) * scale; }))};
 }
 
 LightColour daylight_colour(float kelvin) {

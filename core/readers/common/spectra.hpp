@@ -46,6 +46,9 @@ LightColour light_colour_of_lines(std::span<const SpectrumPoint> spectrum);
 LightColour mean_light(std::span<const SpectrumPoint> spectrum);
 /// As mean_light(), in steps of a nanometre: for tables with lines in them.
 LightColour mean_light_of_lines(std::span<const SpectrumPoint> spectrum);
+/// Has light of that spectrum (of a black body of that many kelvin) a colour that no sRGB screen can show? It is cut.
+bool beyond_srgb(std::span<const SpectrumPoint> spectrum);
+bool blackbody_beyond_srgb(float kelvin);
 /// The spectrum (of one point at least), but 0 beyond its ends, where it does not begin at `low` and end at `high`
 /// nanometres, or farther out.
 std::vector<SpectrumPoint> dark_beyond_ends(std::vector<SpectrumPoint> spectrum, float low, float high);

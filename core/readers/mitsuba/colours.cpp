@@ -60,16 +60,22 @@ double planck(double kelvin, double nanometres) {
 template <class Colour>
 constexpr bool shines = std::is_same_v<Colour, LightColour>;
 
+void warn_of_cut(const Node& node, const Context& context) {
+    context.warn(node, fmt::format("<{}> is of a colour that sRGB can't show, and is cut", node.tag));
+}
+
 /// Spectra of Mitsuba are 0 beyond their tables. Those of surfaces often end at 400 and 700 nm, where they were
 /// measured no further, and go on so.
 template <class Colour>
-Colour of_table(std::vector<SpectrumPoint> points) {
+Colour of_table(std::vector<SpectrumPoint> points, const Node& node, const Context& context) {
     points =
         shines<Colour> ? dark_beyond_ends(std::move(points), 360, 830) : dark_beyond_ends(std::move(points), 400, 700);
-    if constexpr (shines<Colour>)
+    if constexpr (shines<Colour>) {
+        if (beyond_srgb(points)) warn_of_cut(node, context);
         return mean_light_of_lines(points);
-    else
+    } else {
         return surface_colour(points);
+    }
 }
 
 /// With the absolute brightness of Mitsuba, which is the mean over the eye's sensitivity.
@@ -83,6 +89,7 @@ std::optional<Colour> blackbody(double kelvin, double scale, const Node& node, c
         context.error(node, "a black body needs a temperature in kelvin");
         return std::nullopt;
     }
+    if (blackbody_beyond_srgb(float(kelvin))) warn_of_cut(node, context);
     double sum = 0, weights = 0;
     for (double w = 400; w <= 700; w += 10) {
         const double t = (w - 556) / 45, weight = std::exp(-0.5 * t * t);  // about the CIE's ȳ
@@ -169,7 +176,7 @@ std::optional<Colour> plugin(const Node& node, const Context& context) {
                                  node, context);
     if (node.type == "uniform") {
         const float value = properties.number("value", 1);
-        return shines<Colour> ? of_table<Colour>({{360, value}, {830, value}}) : Colour{grey(value)};
+        return shines<Colour> ? of_table<Colour>({{360, value}, {830, value}}, node, context) : Colour{grey(value)};
     }
     if (node.type == "d65") {
         const auto colour = colour_in<Colour>(properties, "color");
@@ -179,7 +186,7 @@ std::optional<Colour> plugin(const Node& node, const Context& context) {
         return colour_in<Colour>(properties, node.type == "rgb" ? "value" : "color").value_or(Colour{grey(1)});
     if (node.type == "irregular" || node.type == "regular") {
         auto points = samples(properties);
-        return points ? std::optional(of_table<Colour>(*std::move(points))) : std::nullopt;
+        return points ? std::optional(of_table<Colour>(*std::move(points), node, context)) : std::nullopt;
     }
     properties.ignore_all();
     context.warn(node, fmt::format("spectrum '{}' is not supported: {} is taken", node.type,
@@ -194,7 +201,7 @@ std::optional<Colour> spectrum(const Node& node, const Context& context) {
     const bool filed = node.has("filename");
     if (filed || text.find(':') != text.npos) {
         auto points = filed ? spectrum_file(node, context) : table(text, node, context);
-        return points ? std::optional(of_table<Colour>(*std::move(points))) : std::nullopt;
+        return points ? std::optional(of_table<Colour>(*std::move(points), node, context)) : std::nullopt;
     }
     const auto colour = rgb(node, context);
     return colour ? std::optional(Colour{*colour}) : std::nullopt;

@@ -21,10 +21,6 @@ std::vector<SpectrumPoint> curve_in(const std::string& path, Assets& assets) {
     return read_spd(text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text);
 }
 
-Rgb seen(const std::vector<SpectrumPoint>& curve, bool shines) {
-    return shines ? mean_light_of_lines(curve).rgb : surface_colour(curve).rgb;
-}
-
 }  // namespace
 
 std::optional<Rgb> spectral_colour(Lines& line, bool shines, Assets& assets) {
@@ -42,7 +38,10 @@ std::optional<Rgb> spectral_colour(Lines& line, bool shines, Assets& assets) {
     const auto path = find_curve(where.file, name, where, assets);
     if (!path) return left_out(fmt::format("there is no file '{}'", name));
     try {
-        return seen(curve_in(*path, assets), shines) * factor.value_or(1);
+        const auto curve = curve_in(*path, assets);
+        if (shines && beyond_srgb(curve))
+            assets.report().warn(where, "light by 'spectral' is of a colour that sRGB can't show, and is cut");
+        return (shines ? mean_light_of_lines(curve).rgb : surface_colour(curve).rgb) * factor.value_or(1);
     } catch (const MissingHere&) {
         throw;
     } catch (const Error& problem) {

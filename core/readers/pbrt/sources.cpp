@@ -15,14 +15,20 @@ namespace {
 
 enum class Seen { surface, index, light };
 
+void warn_of_cut(const Parameter& parameter, const Sources& sources) {
+    sources.report.warn(parameter.where, fmt::format("{} '{}' is of a colour that sRGB can't show, and is cut",
+                                                     name_of(parameter.type), parameter.name));
+}
+
 /// The lights of pbrt-v3 are as bright as their tables say, and go on beyond them. Those of pbrt-v4 end there, and so
 /// do surfaces, but where they were measured as far as light is seen well; indices of refraction have no end.
-Rgb project(std::vector<SpectrumPoint> points, Seen as, const Sources& sources) {
+Rgb project(std::vector<SpectrumPoint> points, Seen as, const Parameter& parameter, const Sources& sources) {
     const bool shines = as == Seen::light;
-    if (shines && sources.older()) return mean_light_of_lines(points).rgb;
     const bool ends = as != Seen::index && !sources.older() && points.size() > 1;
     if (ends) points = dark_beyond_ends(std::move(points), shines ? 360 : 400, shines ? 830 : 700);
-    return shines ? light_colour_of_lines(points).rgb : surface_colour(points).rgb;
+    if (!shines) return surface_colour(points).rgb;
+    if (beyond_srgb(points)) warn_of_cut(parameter, sources);
+    return sources.older() ? mean_light_of_lines(points).rgb : light_colour_of_lines(points).rgb;
 }
 
 std::optional<Rgb> named(const std::string& name, Seen as) {
@@ -34,7 +40,8 @@ std::optional<Rgb> from_file(const std::string& name, const Parameter& parameter
     const auto bytes = sources.read(name, parameter.where);
     if (!bytes) return std::nullopt;
     try {
-        return project(read_spd({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()}), as, sources);
+        return project(read_spd({reinterpret_cast<const char*>((*bytes)->data()), (*bytes)->size()}), as, parameter,
+                       sources);
     } catch (const Error& problem) {
         sources.report.error(parameter.where, fmt::format("'{}': {}", name, problem.what()));
         return std::nullopt;
@@ -66,7 +73,7 @@ std::optional<Rgb> from_values(const Parameter& parameter, Seen as, const Source
         sources.report.warn(
             parameter.where,
             fmt::format("spectrum '{}' has one wavelength: all are taken alike, where pbrt is black", parameter.name));
-    if (sound) return project(std::move(points), as, sources);
+    if (sound) return project(std::move(points), as, parameter, sources);
     sources.report.error(parameter.where, fmt::format("spectrum '{}' needs wavelengths, ascending, each with its value",
                                                       parameter.name));
     return std::nullopt;
@@ -97,10 +104,12 @@ std::optional<Rgb> unchecked(const Parameter& parameter, Seen as, const Sources&
         case Type::blackbody:
             if (sources.older()) {
                 if (n.size() != 2 || n[0] <= 0) return wrong("needs a temperature above 0, in kelvin, and a scale");
+                if (blackbody_beyond_srgb(n[0])) warn_of_cut(parameter, sources);
                 return peaked_blackbody(n[0]).rgb * n[1];
             }
             if (as != Seen::light) return wrong("of type blackbody fits a light only");
             if (n.size() != 1 || n[0] <= 0) return wrong("needs one temperature above 0, in kelvin");
+            if (blackbody_beyond_srgb(n[0])) warn_of_cut(parameter, sources);
             return blackbody_colour(n[0]).rgb;
         case Type::spectrum:
             if (parameter.texts.size() == 1 && n.empty()) return from_name(parameter, as, sources);
@@ -120,9 +129,7 @@ std::optional<Rgb> colour_of(const Parameter& parameter, Seen as, const Sources&
     if (!sound || parameter.type != Type::rgb || parameter.space == ColourSpace::srgb) return sound;
     const Rgb here = to_srgb(*sound, parameter.space);
     constexpr float rounding = 1e-5f;
-    if (std::min({here.r, here.g, here.b}) < -rounding * max_component(*sound))
-        sources.report.warn(parameter.where,
-                            fmt::format("rgb '{}' is of a colour that sRGB can't show, and is cut", parameter.name));
+    if (std::min({here.r, here.g, here.b}) < -rounding * max_component(*sound)) warn_of_cut(parameter, sources);
     return Rgb{std::max(here.r, 0.0f), std::max(here.g, 0.0f), std::max(here.b, 0.0f)};
 }
 
