@@ -69,6 +69,8 @@ std::vector<std::string> mitsuba_seeds() {
 <float name="uscale" value="2"/></texture><float name="scale" value="3"/></texture><bsdf type="roughconductor"><string name="material" value="Au"/></bsdf></bsdf></shape>
 <shape type="disk"><bsdf type="mixturebsdf"><string name="weights" value=".5,.2"/><bsdf type="diffuse"><spectrum name="reflectance" value="400:.1 700:.5"/></bsdf>
 <bsdf type="dielectric"><string name="intIOR" value="water"/></bsdf></bsdf></shape>
+<shape type="merge"><shape type="cube"><bsdf type="mask"><float name="opacity" value=".5"/><bsdf type="null"/></bsdf><emitter type="area"/></shape></shape>
+<medium id="m" type="heterogeneous"><volume name="density" type="constvolume"/></medium><shape type="cube"><bsdf type="null"/><ref name="interior" id="m"/></shape>
 <shape type="sphere"><bsdf type="hair"><rgb name="sigma_a" value=".1,.2,.3"/><float name="scale" value="2"/></bsdf></shape>
 <emitter type="envmap"><string name="filename" value="p.hdr"/></emitter><emitter type="projector"><texture name="irradiance" type="bitmap">
 <string name="filename" value="p.hdr"/></texture></emitter><emitter type="spot"/><emitter type="sun"/></scene>)"};
@@ -161,7 +163,8 @@ void read_obj(std::span<const std::byte> bytes) {
     const std::string text = text_of(bytes);
     const auto border = std::min(text.find('\0'), text.size());
     attempt("scene.obj", text.substr(0, border),
-            {{"m.mtl", text.substr(std::min(border + 1, text.size()))}, {"p.hdr", dot}}, use);
+            {{"m.mtl", text.substr(std::min(border + 1, text.size()))}, {"p.hdr", dot}, {"c.rfl", "400 .5 700 .7\n"}},
+            use);
 }
 
 std::vector<std::string> obj_seeds() {
@@ -169,7 +172,8 @@ std::vector<std::string> obj_seeds() {
         "mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nv .5 .2 0\nvt 0 0\nvn 0 0 1\ns 1\nusemtl a\nf 1/1/1 2//1 -2 -1 "
         "\\\n 3\nl 1 2\n" +
             std::string(1, '\0') +
-            "newmtl a\nKd .5 .5 .5\nmap_Kd -s 2 2 -o 1 p.hdr\nPr .3\nd .5\nKe 1 1 1\nnewmtl b\nillum 7\nNi 1.5\nbump "
+            "newmtl a\nKd .5 .5 .5\nmap_Kd -s 2 2 -o 1 p.hdr\nPr .3\nd .5\nKe spectral C.RFL 2\nTf spectral "
+            "m.mtl\nnewmtl b\nillum 7\nNi 1.5\nbump "
             "-bm 2 p.hdr\n",
         square + "g x\no y\nusemtl none\nf 1 2 3\n",
         "\xEF\xBB\xBFmtllib my m.mtl M.MTL C:\\m.mtl # all\n" + square + "usemtl a\nf 1/1/1 2/-1/-1 3/9/9\n" +

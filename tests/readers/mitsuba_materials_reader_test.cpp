@@ -277,6 +277,25 @@ TEST(MitsubaCoating, IsOverMetalsAndDiffuseSurfaces) {
     EXPECT_EQ(model_of<CoatedDiffuseMaterial>(matt).roughness.u, 0.2f);
 }
 
+// there, light meets the base once
+TEST(MitsubaCoating, LetsNothingGoBackAndForth) {
+    const auto layer = [](const std::string& more) {
+        return model_of<CoatedDiffuseMaterial>(
+                   read_mitsuba_bsdf("<bsdf type='coating'>" + more + "<bsdf type='diffuse'/></bsdf>"))
+            .layer;
+    };
+    EXPECT_EQ(layer("").bounces, 1u);
+    EXPECT_EQ(layer("").thickness, 0);
+    EXPECT_NEAR(layer("<rgb name='sigma_a' value='.5'/><float name='thickness' value='3'/>").thickness, 1.5f, 1e-5f);
+    EXPECT_EQ(
+        model_of<CoatedConductorMaterial>(read_mitsuba_bsdf("<bsdf type='coating'><bsdf type='conductor'/></bsdf>"))
+            .layer.bounces,
+        1u);
+    EXPECT_THAT(warnings_of(read_mitsuba_bsdf("<bsdf type='coating'><rgb name='sigma_a' value='1,0,0'/><bsdf "
+                                              "type='diffuse'/></bsdf>")),
+                HasSubstr("it absorbs as grey"));
+}
+
 TEST(MitsubaBitmap, HasItsTopRowAtVZeroOfMitsuba) {
     const auto scene = textured(
         "<texture name='reflectance' type='bitmap'><string name='filename' value='p.hdr'/>"

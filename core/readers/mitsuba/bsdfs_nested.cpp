@@ -7,6 +7,19 @@
 #include "core/readers/mitsuba/colours.hpp"
 
 namespace lightnet::mitsuba {
+namespace {
+
+/// What Mitsuba lets become of light below a coat: it is absorbed on both ways, and meets the base once.
+CoatLayer coat_layer(Properties& properties) {
+    const Rgb absorbed = surface_of(properties, "sigma_a", {}).rgb * properties.number("thickness", 1);
+    const float mean = std::max(0.0f, luminance(absorbed));
+    if (max_component(absorbed) > 1.001f * mean)
+        properties.context().warn(properties.node(),
+                                  "the colour of a coat ('sigma_a') is left out: it absorbs as grey");
+    return {mean, 1};
+}
+
+}  // namespace
 
 Material Bsdfs::two_sided(Properties& properties) {
     const auto inner = nested(properties, 1);
@@ -112,15 +125,13 @@ Material Bsdfs::coating(Properties& properties) {
     const auto inner = nested(properties, 1);
     const float eta = index_of(properties, "int_ior", "bk7") / index_of(properties, "ext_ior", "air");
     const Roughness rough = properties.node().type == "roughcoating" ? roughness(properties, 0.1f) : Roughness{};
-    if (properties.has("sigma_a") && !is_black(surface_of(properties, "sigma_a", {}).rgb))
-        context_.warn(properties.node(), "the colour of a coat ('sigma_a') is left out: it is clear");
-    properties.ignore({"thickness"});
+    const CoatLayer layer = coat_layer(properties);
     if (inner.empty()) return grey();
     Material material = copy_of(of(*inner[0]));
     if (const auto* base = std::get_if<DiffuseMaterial>(&material.model)) {
-        material.model = CoatedDiffuseMaterial{base->reflectance, eta, rough};
+        material.model = CoatedDiffuseMaterial{base->reflectance, eta, rough, {}, true, layer};
     } else if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) {
-        material.model = CoatedConductorMaterial{metal->metal, metal->roughness, eta, rough};
+        material.model = CoatedConductorMaterial{metal->metal, metal->roughness, eta, rough, layer};
     } else {
         context_.warn(
             properties.node(),
