@@ -5,6 +5,7 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "tests/support/memory_files.hpp"
 #include "tests/support/picture_bytes.hpp"
 #include "tests/support/picture_kinds.hpp"
+#include "tests/support/scene_text.hpp"
 
 namespace lightnet::image_file_test {
 namespace {
@@ -135,6 +137,24 @@ TEST(Tiff, ReadsWholeNumbersAndFloatsInStripsAndTiles) {
                     EXPECT_NEAR(image.colour(x, y).b, one, 1e-6f);
                 }
         }
+}
+
+TEST(Tiff, ReadsNumbersOfEverySize) {
+    enum { whole = 1, with_sign, real };
+    const auto greys = [](int bits, int format, const std::string& samples) {
+        const Image image = read(test::grey_tiff(bits, format, samples), {Encoding::Curve::linear, 1});
+        return std::pair{image.colour(0, 0).g, image.colour(1, 0).g};
+    };
+    const auto expect = [](std::pair<float, float> got, float first, float second) {
+        EXPECT_NEAR(got.first, first, 2e-4f);
+        EXPECT_NEAR(got.second, second, 2e-4f);
+    };
+    expect(greys(8, with_sign, test::raw(std::int8_t{127}, std::int8_t{-3})), 1, 0);
+    expect(greys(16, with_sign, test::raw(std::int16_t{16384}, std::int16_t{-9})), 0.5f, 0);
+    expect(greys(32, with_sign, test::raw(std::int32_t{1 << 29}, std::int32_t{-9})), 0.25f, 0);
+    expect(greys(32, whole, test::raw(std::uint32_t{1} << 30, ~std::uint32_t{0})), 0.25f, 1);
+    expect(greys(16, real, test::raw(std::uint16_t{0x4200}, std::uint16_t{0x3800})), 3, 0.5f);
+    expect(greys(64, real, test::raw(2.5, -1.0)), 2.5f, -1);
 }
 
 TEST(Tiff, TurnsPalettesIntoColours) {

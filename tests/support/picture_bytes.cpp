@@ -126,6 +126,16 @@ std::string tiff(int bits, bool tiles, bool apart) {
     });
 }
 
+std::string grey_tiff(int bits, int format, const std::string& samples) {
+    return tiff_of(2, 1, std::uint16_t(bits), [&](TIFF* file) {
+        TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
+        TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+        TIFFSetField(file, TIFFTAG_SAMPLEFORMAT, format);
+        std::string row = samples;
+        TIFFWriteScanline(file, row.data(), 0, 0);
+    });
+}
+
 std::string palette_tiff(int turned) {
     return tiff_of(2, 1, 8, [turned](TIFF* file) {
         TIFFSetField(file, TIFFTAG_ORIENTATION, turned);

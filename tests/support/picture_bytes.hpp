@@ -20,6 +20,8 @@ std::string tiled_exr();
 /// 20 x 18 pixels, each {x, y, 1}, of 8 or 16 bits or (32) floats in tiles of 16 x 16 or in strips, packed;
 /// `apart`: colour by colour.
 std::string tiff(int bits, bool tiles, bool apart = false);
+/// Two pixels of grey, whose samples are these bytes; `format` as TIFF has it: 1 without a sign, 2 with one, 3 floats.
+std::string grey_tiff(int bits, int format, const std::string& samples);
 /// Two pixels beside each other, of a palette: red, and a blue that is half of 255; `turned`: how cameras say it was
 /// held.
 std::string palette_tiff(int turned = 1);

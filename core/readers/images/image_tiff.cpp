@@ -1,5 +1,6 @@
-// TIFF, with libtiff: 8 and 16 bits and floats, in strips or tiles; whatever else there is, as libtiff turns it into 8
-// bits.
+// TIFF, with libtiff: whole numbers of 8 to 32 bits and floats, in strips or tiles; whatever else there is, as libtiff
+// turns it into 8 bits.
+#include <half.h>
 #include <tiffio.h>
 
 #include <algorithm>
@@ -99,16 +100,17 @@ struct Layout {
     std::uint32_t width = 0, height = 0;
     std::uint16_t bits = 1, channels = 1, format = SAMPLEFORMAT_UINT, planes = PLANARCONFIG_CONTIG,
                   colours = PHOTOMETRIC_MINISBLACK;
-    /// Do its samples stand as we keep them?
+    /// Do its samples stand as we keep them, or nearly so?
     bool plain() const {
-        const bool whole = format == SAMPLEFORMAT_UINT && (bits == 8 || bits == 16);
+        const bool whole =
+            (format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT) && (bits == 8 || bits == 16 || bits == 32);
         const bool rgb = colours == PHOTOMETRIC_RGB && (channels == 3 || channels == 4);
         const bool grey = colours == PHOTOMETRIC_MINISBLACK && channels <= 2;
         return (whole || floats()) && (rgb || grey);
     }
     /// Do they stand colour by colour?
     bool apart() const { return planes == PLANARCONFIG_SEPARATE && channels > 1; }
-    bool floats() const { return format == SAMPLEFORMAT_IEEEFP && bits == 32; }
+    bool floats() const { return format == SAMPLEFORMAT_IEEEFP && (bits == 16 || bits == 32 || bits == 64); }
     std::size_t row() const { return std::size_t{width} * channels * bits / 8; }
 };
 
@@ -164,6 +166,43 @@ std::vector<std::uint8_t> rows_of(const OpenTiff& tiff, const Layout& layout) {
     return rows;
 }
 
+template <class From, class To>
+std::vector<std::uint8_t> each(const std::vector<std::uint8_t>& rows, To (*turn)(From)) {
+    const std::size_t count = rows.size() / sizeof(From);
+    std::vector<std::uint8_t> turned(count * sizeof(To));
+    for (std::size_t i = 0; i < count; ++i) {
+        From from;
+        std::memcpy(&from, rows.data() + i * sizeof from, sizeof from);
+        const To to = turn(from);
+        std::memcpy(turned.data() + i * sizeof to, &to, sizeof to);
+    }
+    return turned;
+}
+
+/// Rare kinds of samples, brought to bytes and words without a sign and to floats of 32 bits. Black is 0: what is below
+/// it is black.
+void bring_to_usual(Layout& layout, std::vector<std::uint8_t>& rows) {
+    const bool real = layout.floats(), has_sign = layout.format == SAMPLEFORMAT_INT;
+    if (real && layout.bits == 16)
+        rows = each<std::uint16_t, float>(rows, [](std::uint16_t bits) { return imath_half_to_float(bits); });
+    else if (real && layout.bits == 64)
+        rows = each<double, float>(rows, [](double number) { return float(number); });
+    else if (has_sign && layout.bits == 8)
+        rows = each<std::int8_t, std::uint8_t>(
+            rows, [](std::int8_t number) { return std::uint8_t(std::max(0, int{number}) * 255 / 127); });
+    else if (has_sign && layout.bits == 16)
+        rows = each<std::int16_t, std::uint16_t>(
+            rows, [](std::int16_t number) { return std::uint16_t(std::max(0, int{number}) * 65535 / 32767); });
+    else if (has_sign && layout.bits == 32)
+        rows = each<std::int32_t, std::uint16_t>(
+            rows, [](std::int32_t number) { return std::uint16_t(std::max(0, number) >> 15); });
+    else if (!real && layout.bits == 32)
+        rows =
+            each<std::uint32_t, std::uint16_t>(rows, [](std::uint32_t number) { return std::uint16_t(number >> 16); });
+    if (real) layout.bits = 32;
+    if (!real && layout.bits == 32) layout.bits = 16;
+}
+
 Image image_of_floats(const Layout& layout, const std::vector<std::uint8_t>& rows) {
     const std::size_t count = std::size_t{layout.width} * layout.height, channels = layout.channels;
     std::vector<Rgb> pixels(count);
@@ -205,10 +244,11 @@ Raster turned_into_eight_bits(const OpenTiff& tiff, const Layout& layout) {
 
 Found read_tiff(Input bytes) {
     const OpenTiff tiff(bytes);
-    const Layout layout = layout_of(tiff);
+    Layout layout = layout_of(tiff);
     check_size(layout.width, layout.height, bytes, pixels_per_byte_of(tiff));
     if (!layout.plain()) return turned_into_eight_bits(tiff, layout);
     auto rows = rows_of(tiff, layout);
+    bring_to_usual(layout, rows);
     if (layout.floats()) return image_of_floats(layout, rows);
     return raster_of(layout, std::move(rows));
 }
