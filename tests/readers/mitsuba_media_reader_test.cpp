@@ -118,6 +118,17 @@ TEST(MitsubaMedia, OfVersion6HaveADensityThatFillsItsOwnBox) {
     EXPECT_EQ(moved.media.at(0).extinction.at({10, 0.5f, 0.5f}), (Rgb{10, 10, 10}));
 }
 
+TEST(MitsubaMedia, OfVersion6HaveConstantsWithoutABox) {
+    const auto scene = older_ball_of(
+        "<medium name='interior' type='heterogeneous'><volume name='density' type='constvolume'><float name='value' "
+        "value='2'/></volume><volume name='albedo' type='constvolume'><spectrum name='value' value='.5'/></volume>"
+        "</medium>");
+    for (const Vec3 at : {Vec3{0.5f, 0.5f, 0.5f}, Vec3{-7, 0, 0}}) {
+        EXPECT_EQ(scene.media.at(0).extinction.at(at), (Rgb{2, 2, 2}));
+        EXPECT_EQ(scene.media.at(0).albedo_at(at), (Rgb{0.5f, 0.5f, 0.5f}));
+    }
+}
+
 TEST(MitsubaMedia, OfVersion6ByNamesAreNotKnown) {
     const auto said = [](const std::string& more) {
         return warnings_of(older_ball_of("<medium name='interior' type='homogeneous'>" + more + "</medium>"));

@@ -119,8 +119,9 @@ void Media::take(Properties& properties, std::string_view name, Rgb fallback, Vo
 VolumeField Media::volume(const Node& node) {
     Properties properties(node, context_);
     if (node.type == "gridvolume") return grid(properties);
-    if (node.type == "constvolume") {  // as Mitsuba has it, it fills its cube only
+    if (node.type == "constvolume") {  // as Mitsuba has it, it fills its cube only, in version 0.6 all space
         VolumeField field{surface_of(properties, "value", {1, 1, 1}).rgb};
+        if (context_.document.version == 0) return field;
         field.grid = std::make_shared<const VolumeGrid>(VolumeGrid{.values = {1}});
         place(properties, Matrix{}, field);
         return field;
