@@ -18,6 +18,7 @@
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/scene_media.hpp"
 
 namespace lightnet {
 namespace {
@@ -192,7 +193,7 @@ private:
         const SharedFirstRays::One& one = some.by_direction[i];
         Ray way = one.step.ray;
         if (one.hit) way.far = one.hit->distance;
-        return scene_.transmittance(way, some.numbers.at(i, media_on_direction).next_2d());
+        return scene_.media().transmittance(way, some.numbers.at(i, media_on_direction).next_2d());
     }
     void meet_lamps(Samplers& some) const {
         some.lamps_met.find(scene_, heuristic_, [&](std::uint32_t i, Rgb arriving, std::uint32_t group) {

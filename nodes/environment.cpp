@@ -7,6 +7,7 @@
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_media.hpp"
 
 namespace lightnet {
 namespace {
@@ -49,7 +50,7 @@ private:
             const Ray ray = point.ray_towards(sample->incoming);
             rays.rays.push_back(ray);
             Rgb light = sample->weight * scene_.environment(ray) / float(samples_);
-            if (scene_.has_media()) light *= scene_.transmittance(ray, samples.next_2d());
+            if (scene_.has_media()) light *= scene_.media().transmittance(ray, samples.next_2d());
             rays.light.push_back(light);
             rays.askers.push_back(asker);
         }

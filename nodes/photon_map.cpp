@@ -32,11 +32,14 @@ PhotonTree::Photons taken_out_of(std::vector<Mapped<Photon>>& lots, const Servic
 /// frozen. Answers are as blurred as the `gather` nearest photons lie apart: the bias of the method, which shrinks as
 /// `photons` grow. At edges light is not lost, but spread over the surface that there is (PhotonSpread). Where light is
 /// wanted that is smooth, IrradianceCache or FinalGather over a map of all paths hides the blur.
+///
+/// At points in media it answers from beams instead: what light passes on its way (BeamTree).
 class PhotonMap final : public LightOp {
 public:
     explicit PhotonMap(const NodeContext& here)
         : scene_(here.scene()),
           shooting_(Shooting::with_error(here)),
+          beams_(shooting_of_beams(here, shooting_)),
           gather_(static_cast<std::size_t>(here.integer("gather"))),
           radius_(gather_radius(here)) {}
 
@@ -44,6 +47,10 @@ public:
         if (!may_keep_any(scene_, shooting_.paths)) {
             tree_ = services.once<PhotonTree>([] { return PhotonTree(std::span<const Photon>{}); });
             return;
+        }
+        if (beams_.emitted > 0) {
+            services.doing("shoots beams through media");
+            beam_tree_ = take_beams(services, scene_, beams_)[0];
         }
         services.doing("tries where to aim");
         const auto aim = take_aim(services, scene_, shooting_);
@@ -58,11 +65,14 @@ public:
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         assert(tree_ && "nobody asks before it is prepared");
-        if (tree_->size() == 0) return;
+        if (tree_->size() == 0 && !beam_tree_) return;
         Nearest scratch;
         gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
-            tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch,
-                            answers.subspan(i * scene_.groups(), scene_.groups()));
+            const auto groups = answers.subspan(i * scene_.groups(), scene_.groups());
+            if (!at.point.is_in_space())
+                tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch, groups);
+            else if (beam_tree_)
+                beam_tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch, groups);
         });
     }
 
@@ -70,22 +80,24 @@ public:
 
 private:
     const Scene& scene_;
-    Shooting shooting_;
+    Shooting shooting_, beams_;
     std::size_t gather_;
     float radius_;  // m
     std::shared_ptr<const PhotonTree> tree_;
+    std::shared_ptr<const BeamTree> beam_tree_;  // null: there are no media
 };
 
 std::vector<Param> photon_map_params() {
     auto params = shooting_params(0, "light paths that leave the lamps; 0: as many as the error wants");
     params.push_back({.name = "gather",
                       .type = ParamType::integer,
-                      .help = "how many of the nearest photons an answer takes; 0: all within the radius",
+                      .help = "how many of the nearest photons, or beams, an answer takes; 0: all within the radius",
                       .unit = "photons",
                       .initial = Value{60.0},
                       .least = 0,
                       .most = 65536});
     params.push_back(gather_radius("how far they may be away"));
+    params.push_back(beams_param(10000, "light paths of which the ways through media are kept, where there are any"));
     return params;
 }
 
@@ -96,7 +108,7 @@ Kind photon_map_kind() {
         .name = "PhotonMap",
         .help = "photon mapping, light sent from the lamps beforehand: caustics, or an approximation of all light",
         .params = photon_map_params(),
-        .light = {.lamps = true, .groups = true, .paths = paths_of_photons},
+        .light = {.space = true, .lamps = true, .groups = true, .paths = paths_of_photons},
         .run = {.prepares = true,
                 .freezes = "photons",
                 .landmarks = [](const NodeContext& here) { return landmarks_of(here.scene(), Shooting::of(here)); }},

@@ -19,12 +19,14 @@ namespace {
 /// its own, with photons and a radius that follow from s alone, so that a picture is the mean of as many maps as it has
 /// samples. Noise and bias both vanish as samples grow; at edges light is not lost (PhotonSpread). It is made anew for
 /// each pass, and has the maps of that one. Others than the renderer ask about samples of their own: they get the maps
-/// of the pass in turn.
+/// of the pass in turn. At points in media beams answer, whose radius shrinks alike: both blur in two dimensions
+/// (Jarosz et al. 2011, "Progressive photon beams").
 class ProgressivePhotonMapping final : public LightOp {
 public:
     explicit ProgressivePhotonMapping(const NodeContext& here)
         : scene_(here.scene()),
           shooting_(Shooting::of(here)),
+          beams_(shooting_of_beams(here, shooting_)),
           first_map_(std::uint64_t{here.pass()} * samples_per_block) {
         const double first = here.number("radius"), alpha = here.number("alpha");
         double squared = std::pow(first > 0 ? first : 0.013 * scene_.radius(), 2);
@@ -35,6 +37,7 @@ public:
     }
 
     void prepare(Services& services) override {
+        if (beams_.emitted > 0) beam_maps_ = take_beams(services, scene_, beams_, first_map_, samples_per_block);
         const auto aim = take_aim(services, scene_, shooting_);
         const auto photons = shoot(services, scene_, shooting_, *aim, {first_map_, radii_});
         const std::size_t each = shards_each(shooting_);
@@ -52,17 +55,21 @@ public:
         Nearest scratch;
         gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
             const std::size_t map = questions[i].sample % samples_per_block;
-            maps_[map]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[map], 0, scratch,
-                                 answers.subspan(i * scene_.groups(), scene_.groups()));
+            const auto groups = answers.subspan(i * scene_.groups(), scene_.groups());
+            if (!at.point.is_in_space())
+                maps_[map]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[map], 0, scratch, groups);
+            else if (!beam_maps_.empty())
+                beam_maps_[map]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[map], 0, scratch, groups);
         });
     }
 
 private:
     const Scene& scene_;
-    Shooting shooting_;
+    Shooting shooting_, beams_;
     std::uint64_t first_map_;
     std::vector<float> radii_;  // m, of each map of the pass
     std::vector<std::shared_ptr<const PhotonTree>> maps_;
+    std::vector<std::shared_ptr<const BeamTree>> beam_maps_;  // none: there are no media
 };
 
 std::vector<Param> progressive_photon_mapping_params() {
@@ -79,6 +86,7 @@ std::vector<Param> progressive_photon_mapping_params() {
                       .unit = "scene units",
                       .initial = Value{0.0},
                       .least = 0});
+    params.push_back(beams_param(1000, "light paths of each sample of which the ways through media are kept"));
     return params;
 }
 
@@ -91,7 +99,7 @@ Kind progressive_photon_mapping_kind() {
         .params = progressive_photon_mapping_params(),
         .gone = {{"passes",
                   "each sample of a pixel has photons of its own now: 'samples' of the renderer says how many"}},
-        .light = {.lamps = true, .groups = true, .paths = paths_of_photons},
+        .light = {.space = true, .lamps = true, .groups = true, .paths = paths_of_photons},
         .run = {.prepares = true, .passes = true},
         .reads = reading(scene_of_light | ScenePart::names),
         .make_light = [](const NodeContext& here) { return std::make_unique<ProgressivePhotonMapping>(here); },

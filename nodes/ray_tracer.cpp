@@ -13,6 +13,7 @@
 #include "core/network/light/node_context.hpp"
 #include "core/network/light/renderer.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_media.hpp"
 
 namespace lightnet {
 namespace {
@@ -212,7 +213,7 @@ private:
         Ray way = branch.path.ray();
         if (branch.hit) way.far = branch.hit->distance;
         Samples samples(child(sample.key, flight_key, surface), sample.sample);
-        const Flight flight = scene_.fly(way, branch.path.weight(), samples.next_2d());
+        const Flight flight = scene_.media().fly(way, branch.path.weight(), samples.next_2d());
         met.emitted[scene_.environment_group()] += branch.path.weight() * flight.emitted;
         branch.path.dim(flight.weight);
         if (!flight.collision) return false;

@@ -2,6 +2,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/estimate/specular_path.hpp"
+#include "core/scene/scene_media.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -38,7 +39,7 @@ bool collides(const Scene& scene, const GatherRay& ray, const std::optional<Hit>
     Ray way = path.ray();
     if (hit) way.far = hit->distance;
     Samples samples(child(ray.stream, flight_key, mirrors), ray.sample);
-    const Flight flight = scene.fly(way, path.weight(), samples.next_2d());
+    const Flight flight = scene.media().fly(way, path.weight(), samples.next_2d());
     path.dim(flight.weight);
     if (!flight.collision) return false;
     path.arrive(flight.collision->distance);

@@ -15,6 +15,7 @@
 #include "core/estimate/path_vertices.hpp"
 #include "core/estimate/shadow_rays.hpp"
 #include "core/estimate/shared_first_rays.hpp"
+#include "core/scene/media/flight.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

@@ -171,7 +171,7 @@ private:
             Path& path = batch.paths[i];
             Ray way = batch.rays[i];
             if (batch.hits[i]) way.far = batch.hits[i]->distance;
-            const Flight flight = scene_.fly(way, path.weight, flight_numbers(batch, path.sum, 2 * depth));
+            const Flight flight = scene_.media().fly(way, path.weight, flight_numbers(batch, path.sum, 2 * depth));
             batch.sums[path.sum + scene_.environment_group()] += path.weight * flight.emitted;
             path.weight *= flight.weight;
             batch.collisions[i] = flight.collision;

@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/scene_media.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,8 @@ namespace {
 
 constexpr std::size_t paths_at_once = 1024;   // whose rays are traced together
 constexpr std::uint32_t most_surfaces = 512;  // light can go round inside glass without loss
+constexpr float far_beyond = 4;               // radii of the scene, so far from its middle beams end
+constexpr float piece_of_radius = 0.125f;     // longest piece of a beam: long ones have large boxes
 
 // Veach 1997, equation 5.19: where shading normals lean, light that is followed from its lamp isn't scattered as light
 // that is followed from the eye. 1 where they don't.
@@ -77,25 +80,52 @@ bool PhotonShooter::keeps(bool met_mirror, bool met_rough) const {
     return true;
 }
 
+// Light on its way through media to the end of a ray: false, it does not get there. What collides is scattered there;
+// light that may be kept after mirrors alone would not be, and is dimmed instead.
+template <class Keep>
+bool PhotonShooter::cross(PhotonPath& path, const Ray& way, const Keep& keep, Batch& batch) const {
+    if (keeps(path.met_mirror, path.met_rough)) keep.on_way(path, way);
+    if (paths_ == PhotonPaths::caustic) {
+        path.flux *= scene_.media().transmittance(way, path.samples.next_2d());
+        return !is_black(path.flux);
+    }
+    const Flight flight = scene_.media().fly(way, path.flux, path.samples.next_2d());
+    path.flux *= flight.weight;
+    if (is_black(path.flux)) return false;
+    if (!flight.collision) return true;
+    const Vec3 place = way.origin + way.direction * flight.collision->distance;
+    const SurfacePoint point = scene_.point_in_space(place, flight.collision->medium, way.time);
+    go_on(std::move(path), point, scene_.bsdf(point), -way.direction, batch);
+    return false;
+}
+
 template <class Keep>
 void PhotonShooter::visit(PhotonPath path, const Ray& ray, const Hit& hit, const Keep& keep, Batch& batch) const {
     if (path.inside) path.flux *= left_after(path.inside, hit.distance);
-    if (scene_.has_media()) {  // what is scattered on the way is left out
-        const Ray way{ray.origin, ray.direction, hit.distance, ray.time};
-        path.flux *= scene_.transmittance(way, path.samples.next_2d());
-        if (is_black(path.flux)) return;
-    }
+    if (scene_.has_media() && !cross(path, {ray.origin, ray.direction, hit.distance, ray.time}, keep, batch)) return;
     const SurfacePoint point = scene_.surface(hit);
     const Bsdf bsdf = scene_.bsdf(point);
     const Vec3 arriving = -ray.direction;
-    if ((bsdf.lobes() & lobe::rough) && keeps(path.met_mirror, path.met_rough)) keep(path, point, arriving);
+    if ((bsdf.lobes() & lobe::rough) && keeps(path.met_mirror, path.met_rough)) keep.at_surface(path, point, arriving);
+    go_on(std::move(path), point, bsdf, arriving, batch);
+}
+
+// Light that meets nothing passes through what media there are around the scene.
+template <class Keep>
+void PhotonShooter::leave(PhotonPath path, const Ray& ray, const Keep& keep, Batch& batch) const {
+    const float beyond = length(ray.origin - scene_.bounds().center()) + far_beyond * scene_.radius();
+    cross(path, {ray.origin, ray.direction, beyond, ray.time}, keep, batch);
+}
+
+void PhotonShooter::go_on(PhotonPath path, const SurfacePoint& point, const Bsdf& bsdf, Vec3 arriving,
+                          Batch& batch) const {
     const auto lobes = paths_ == PhotonPaths::caustic ? lobe::specular : lobe::all;
     if (!(bsdf.lobes() & lobes)) return;
     const float choice = bsdf.chooses() ? path.samples.next() : path.samples.skip();
     const auto step = bsdf.sample(arriving, choice, path.samples.next_2d(), lobes);
     if (!step) return;
     float gain = step->transmitted ? step->eta * step->eta : 1;  // flux isn't squeezed as radiance is
-    if (step->lobe != lobe::specular) gain *= lean(point, arriving, step->incoming);
+    if (step->lobe != lobe::specular && !point.is_in_space()) gain *= lean(point, arriving, step->incoming);
     const Rgb flux = path.flux * step->weight * gain;
     // Russian roulette, so that what is left carries about as much as before. Jensen 2001, section 5.2.
     const float before = max_component(path.flux), after = max_component(flux);
@@ -134,29 +164,77 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
         batch.rays_before.swap(batch.rays);
         batch.paths.clear();
         batch.rays.clear();
-        for (std::size_t i = 0; i < batch.before.size(); ++i)
-            if (batch.hits[i] && (surface > 0 || batch.hits[i]->distance >= batch.free[i]))
-                visit(batch.before[i], batch.rays_before[i], *batch.hits[i], keep, batch);
+        for (std::size_t i = 0; i < batch.before.size(); ++i) {
+            const auto& hit = batch.hits[i];
+            if (hit && (surface > 0 || hit->distance >= batch.free[i]))
+                visit(batch.before[i], batch.rays_before[i], *hit, keep, batch);
+            else if (!hit && scene_.has_media())
+                leave(batch.before[i], batch.rays_before[i], keep, batch);
+        }
     }
 }
 
 void PhotonShooter::shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim,
                           std::vector<Photon>& out) const {
-    const auto keep = [&](const PhotonPath& path, const SurfacePoint& point, Vec3 arriving) {
-        out.emplace_back(point.position, path.flux, arriving, point.normal, path.group);
+    struct Keep {
+        std::vector<Photon>& out;
+        void at_surface(const PhotonPath& path, const SurfacePoint& point, Vec3 arriving) const {
+            out.emplace_back(point.position, path.flux, arriving, point.normal, path.group);
+        }
+        void on_way(const PhotonPath&, const Ray&) const {}
     };
     for (std::size_t done = 0; done < count; done += paths_at_once)
-        follow(first + done, std::min(paths_at_once, count - done), float(share), aim, keep, nullptr);
+        follow(first + done, std::min(paths_at_once, count - done), float(share), aim, Keep{out}, nullptr);
 }
 
-void PhotonShooter::attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out) const {
+void PhotonShooter::shoot_beams(std::uint64_t first, std::size_t count, double share, const Aim& aim,
+                                std::vector<PhotonBeam>& out) const {
+    struct Keep {
+        const Scene& scene;
+        std::vector<PhotonBeam>& out;
+        std::vector<MediumPiece>& pieces;
+        void at_surface(const PhotonPath&, const SurfacePoint&, Vec3) const {}
+        void on_way(const PhotonPath& path, const Ray& way) const {
+            if (path.inside) return;  // what fills glass only absorbs
+            pieces.clear();
+            Samples numbers = path.samples;
+            scene.media().cut(way, piece_of_radius * scene.radius(), numbers.next_2d(), pieces);
+            Rgb flux = path.flux;
+            for (const MediumPiece& piece : pieces) {
+                const float length = piece.end - piece.begin;
+                if (piece.scatters)
+                    out.push_back({way.origin + way.direction * piece.begin, way.direction, length, flux,
+                                   piece.extinction, path.group});
+                flux *= left_after(&piece.extinction, length);
+                if (is_black(flux)) return;
+            }
+        }
+    };
+    std::vector<MediumPiece> pieces;
+    for (std::size_t done = 0; done < count; done += paths_at_once)
+        follow(first + done, std::min(paths_at_once, count - done), float(share), aim, Keep{scene_, out, pieces},
+               nullptr);
+}
+
+void PhotonShooter::attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out,
+                            Kept what) const {
     for (std::size_t done = 0; done < count; done += paths_at_once) {
         std::vector<Aim::Choice> chosen;
         std::vector<float> gains(paths_at_once);
-        // What the choice itself added to the flux is none of the gain.
-        const auto keep = [&](const PhotonPath& path, const SurfacePoint&, Vec3) {
-            gains[path.index] += luminance(path.flux) / chosen[path.index].weight;
+        struct Keep {
+            bool beams;
+            std::span<float> gains;
+            const std::vector<Aim::Choice>& chosen;
+            // What the choice itself added to the flux is none of the gain.
+            float gain(const PhotonPath& path) const { return luminance(path.flux) / chosen[path.index].weight; }
+            void at_surface(const PhotonPath& path, const SurfacePoint&, Vec3) const {
+                if (!beams) gains[path.index] += gain(path);
+            }
+            void on_way(const PhotonPath& path, const Ray&) const {
+                if (beams) gains[path.index] += gain(path);
+            }
         };
+        const Keep keep{what == Kept::beams, gains, chosen};
         follow(first + done, std::min(paths_at_once, count - done), 1, aim, keep, &chosen);
         for (std::size_t i = 0; i < chosen.size(); ++i)
             if (gains[i] > 0) out.emplace_back(chosen[i].numbers, chosen[i].weight, gains[i]);

@@ -8,6 +8,7 @@
 
 #include "core/estimate/aim.hpp"
 #include "core/estimate/photon.hpp"
+#include "core/estimate/photon_beam.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -33,8 +34,14 @@ public:
     /// Paths `first` … `first + count` of `total`; appends what they leave on surfaces: of all light `share` (1 /
     /// total).
     void shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim, std::vector<Photon>& out) const;
+    /// Appends what they pass of media, in pieces, each as long as if nothing were scattered on it ("long beams").
+    /// Beyond the scene they end somewhere.
+    void shoot_beams(std::uint64_t first, std::size_t count, double share, const Aim& aim,
+                     std::vector<PhotonBeam>& out) const;
+    enum class Kept { photons, beams };
     /// Paths `first` … `first + count`, as shoot() follows them; appends a trial for each that leaves something.
-    void attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out) const;
+    void attempt(std::uint64_t first, std::size_t count, const Aim& aim, std::vector<Trial>& out,
+                 Kept what = Kept::photons) const;
 
 private:
     struct PhotonPath;
@@ -44,6 +51,11 @@ private:
                 std::vector<Aim::Choice>* chosen) const;
     template <class Keep>
     void visit(PhotonPath path, const Ray& ray, const Hit& hit, const Keep& keep, Batch& batch) const;
+    template <class Keep>
+    bool cross(PhotonPath& path, const Ray& way, const Keep& keep, Batch& batch) const;
+    template <class Keep>
+    void leave(PhotonPath path, const Ray& ray, const Keep& keep, Batch& batch) const;
+    void go_on(PhotonPath path, const SurfacePoint& point, const Bsdf& bsdf, Vec3 arriving, Batch& batch) const;
     bool keeps(bool met_mirror, bool met_rough) const;
 
     const Scene& scene_;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t paths_per_shard = 16384;  // some 20 ms
 constexpr std::size_t trials_per_shard = 4096;  // and their results travel, useful or not
+constexpr std::size_t beams_per_shard = 2048;   // light paths that leave beams
 constexpr double smallest_part = 0.01;          // of the scene, by its light, of which an error is told
 
 // Light paths for what is learnt beforehand; `unknown`: as long as nobody has decided how many there will be.
@@ -26,11 +27,13 @@ std::uint64_t enough_paths(const Shooting& shooting, std::uint64_t pilot_paths, 
     return std::uint64_t(std::clamp(std::max(noise, off_surfaces), 1.0, std::max(1.0, most)));
 }
 
+void check_memory(std::size_t count, std::size_t size, const std::string& what, const Shooting& shooting) {
+    if (count * size <= shooting.most_bytes) return;
+    throw Error(std::to_string(count) + " " + what + " take " + std::to_string((count * size + 999999) / 1000000) +
+                " MB, more than its 'memory' allows: raise it, or send fewer '" + what + "'");
+}
 void check_memory(std::size_t photons, const Shooting& shooting) {
-    if (photons * sizeof(Photon) <= shooting.most_bytes) return;
-    throw Error(std::to_string(photons) + " photons take " +
-                std::to_string((photons * sizeof(Photon) + 999999) / 1000000) +
-                " MB, more than its 'memory' allows: raise it, or send fewer 'photons'");
+    check_memory(photons, sizeof(Photon), "photons", shooting);
 }
 
 // What every machine is taken to have for them.
@@ -126,7 +129,8 @@ bool may_keep_any(const Scene& scene, PhotonPaths paths) {
            });
 }
 
-std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting) {
+std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting,
+                                    PhotonShooter::Kept what) {
     auto aim = services.once<Aim>([] { return Aim(); });
     if (!shooting.aimed) return aim;
     // An eighth of the photons, and a fourth: more would take longer than they save.
@@ -136,7 +140,7 @@ std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, cons
         const std::uint64_t wanted = an_eighth(shooting, most, most) << round;
         const auto trials = services.map<Trial>(
             (wanted + trials_per_shard - 1) / trials_per_shard, [&](std::size_t shard, std::vector<Trial>& out) {
-                shooter.attempt(shard * trials_per_shard, trials_per_shard, *aim, out);
+                shooter.attempt(shard * trials_per_shard, trials_per_shard, *aim, out, what);
             });
         aim = services.once<Aim>([&] { return Aim(trials.all()); });
     }
@@ -229,6 +233,44 @@ std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, c
     for (const auto& some : photons) count += some.size();
     check_memory(count, shooting);
     return photons;
+}
+
+Param beams_param(double initial, const std::string& help) {
+    return {.name = "beams",
+            .type = ParamType::integer,
+            .help = help + "; 0: answers in media are black",
+            .initial = Value{initial},
+            .least = 0,
+            .most = 1e9};
+}
+
+Shooting shooting_of_beams(const NodeContext& here, const Shooting& photons) {
+    Shooting beams = photons;
+    beams.emitted = here.scene().has_media() ? static_cast<std::uint64_t>(here.integer("beams")) : 0;
+    beams.key = child(photons.key, key_of("beams"));
+    return beams;
+}
+
+std::vector<std::shared_ptr<const BeamTree>> take_beams(Services& services, const Scene& scene, const Shooting& beams,
+                                                        std::uint64_t first, std::size_t count) {
+    const auto aim = take_aim(services, scene, beams, PhotonShooter::Kept::beams);
+    const std::size_t each = std::size_t((beams.emitted + beams_per_shard - 1) / beams_per_shard);
+    const auto shot = services.map<PhotonBeam>(count * each, [&](std::size_t shard, std::vector<PhotonBeam>& out) {
+        const std::uint64_t map = first + shard / each, begin = shard % each * beams_per_shard;
+        PhotonShooter(scene, beams.paths, child(beams.key, key_of("ways"), map))
+            .shoot_beams(begin, std::min<std::uint64_t>(beams_per_shard, beams.emitted - begin),
+                         1 / double(beams.emitted), *aim, out);
+    });
+    check_memory(shot.size(), sizeof(PhotonBeam), "beams", beams);
+    std::vector<std::shared_ptr<const BeamTree>> trees;
+    for (std::size_t map = 0; map < count; ++map)
+        trees.push_back(services.once<BeamTree>([&] {
+            std::vector<PhotonBeam> own;
+            for (std::size_t i = map * each; i < (map + 1) * each; ++i)
+                own.insert(own.end(), shot.shard(i).begin(), shot.shard(i).end());
+            return BeamTree(std::move(own));
+        }));
+    return trees;
 }
 
 std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting) {

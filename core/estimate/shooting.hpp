@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/estimate/beam_tree.hpp"
 #include "core/estimate/photon_shooter.hpp"
 #include "core/estimate/photon_spread.hpp"
 #include "core/network/graph/kind.hpp"
@@ -46,7 +47,8 @@ std::vector<std::string> paths_of_photons(const Node& node);
 /// Could any photon be kept? False is certain: nothing in the scene makes caustics.
 bool may_keep_any(const Scene& scene, PhotonPaths paths);
 /// Learns where to aim, from trials: two rounds on all places. Even, unless it is asked for.
-std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting);
+std::shared_ptr<const Aim> take_aim(Services& services, const Scene& scene, const Shooting& shooting,
+                                    PhotonShooter::Kept what = PhotonShooter::Kept::photons);
 /// Some of the maps that can be shot anew without end, each of other photons, which are spread in discs of its radius.
 struct PhotonMaps {
     std::uint64_t first = 0;
@@ -72,6 +74,14 @@ PhotonSpread take_spread(Services& services, const Scene& scene, Shooting& shoot
 /// gets.
 std::vector<Mapped<Photon>> shoot_near(Services& services, const Scene& scene, const Shooting& shooting, const Aim& aim,
                                        const PhotonSpread& spread, float reach);
+/// The parameter `beams` of nodes that answer at points in media, too: light paths that leave the lamps for that.
+Param beams_param(double initial, const std::string& help);
+/// As the node's parameters say: how its beams are shot, none where the scene has no media.
+Shooting shooting_of_beams(const NodeContext& here, const Shooting& photons);
+/// Shoots `count` maps of beams on all places, from map `first` on, each of other light paths, where they are of use.
+/// Throws Error when that takes more memory than photons may.
+std::vector<std::shared_ptr<const BeamTree>> take_beams(Services& services, const Scene& scene, const Shooting& beams,
+                                                        std::uint64_t first = 0, std::size_t count = 1);
 /// Points where photons come to lie, about as densely: for RunTraits::landmarks.
 std::vector<Vec3> landmarks_of(const Scene& scene, const Shooting& shooting);
 

@@ -9,6 +9,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/base/query.hpp"
+#include "core/scene/media/flight.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {

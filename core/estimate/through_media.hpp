@@ -7,6 +7,7 @@
 
 #include "core/estimate/shadow_rays.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_media.hpp"
 
 namespace lightnet {
 
@@ -16,7 +17,7 @@ template <class Numbers>
 void pass_through_media(const Scene& scene, std::span<const std::uint8_t> occluded, ShadowRays& rays,
                         Numbers&& numbers) {
     for (std::size_t i = 0; i < rays.rays.size(); ++i)
-        if (!occluded[i]) rays.light[i] *= scene.transmittance(rays.rays[i], numbers(rays.sums[i]));
+        if (!occluded[i]) rays.light[i] *= scene.media().transmittance(rays.rays[i], numbers(rays.sums[i]));
 }
 
 }  // namespace lightnet

@@ -263,15 +263,7 @@ SurfacePoint Scene::point_in_space(Vec3 position, std::uint16_t medium, ShutterT
     return point;
 }
 
-Flight Scene::fly(const Ray& ray, Rgb carried, Vec2 numbers) const {
-    view_.parts.expect(ScenePart::media);
-    return built_->media.fly(ray, carried, {ray, numbers});
-}
-
-Rgb Scene::transmittance(const Ray& ray, Vec2 numbers) const {
-    view_.parts.expect(ScenePart::media);
-    return built_->media.transmittance(ray, {ray, numbers});
-}
+const Media& Scene::media() const { return view_.parts.expect(ScenePart::media), built_->media; }
 
 Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {
     view_.parts.expect(ScenePart::lamps);

@@ -20,7 +20,6 @@
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/lit_point.hpp"
-#include "core/scene/media/flight.hpp"
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/column_shape.hpp"
 #include "core/scene/surfaces/flat_lamp.hpp"
@@ -29,6 +28,7 @@
 namespace lightnet {
 
 class Lights;
+class Media;
 
 /// How the scene is built. The same values on every host of a run, as the bytes of its answers may depend on them.
 struct SceneOptions {
@@ -111,10 +111,7 @@ public:
 
     /// Is there any medium? Where there is none, nobody needs to ask what follows.
     bool has_media() const { return view_.parts.expect(ScenePart::media), has_media_; }
-    /// What becomes of a path along a ray until ray.far, which has `carried` so much so far.
-    Flight fly(const Ray& ray, Rgb carried, Vec2 numbers) const;
-    /// What is left of light along a ray until ray.far. `numbers`: see FlightNumbers.
-    Rgb transmittance(const Ray& ray, Vec2 numbers) const;
+    const Media& media() const;
 
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone, and who looks is
     /// who looked then. All parts must be in view.

@@ -1,6 +1,7 @@
 #include "core/scene/scene_media.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -108,8 +109,9 @@ void Media::each_stretch(const Ray& ray, Take&& take) const {
     }
 }
 
-Flight Media::fly(const Ray& ray, Rgb carried, FlightNumbers numbers) const {
+Flight Media::fly(const Ray& ray, Rgb carried, Vec2 first) const {
     Flight flight;
+    FlightNumbers numbers(ray, first);
     each_stretch(ray, [&](const Stretch& way) {
         const Medium& medium = data_.media[way.medium];
         if (medium.extinction.grid) return fly_uneven(medium, bounds_[way.medium], ray, way, carried, numbers, flight);
@@ -118,8 +120,9 @@ Flight Media::fly(const Ray& ray, Rgb carried, FlightNumbers numbers) const {
     return flight;
 }
 
-Rgb Media::transmittance(const Ray& ray, FlightNumbers numbers) const {
+Rgb Media::transmittance(const Ray& ray, Vec2 first) const {
     Rgb light{1, 1, 1};
+    FlightNumbers numbers(ray, first);
     each_stretch(ray, [&](const Stretch& way) {
         const Medium& medium = data_.media[way.medium];
         if (medium.extinction.grid) return let_through(medium, bounds_[way.medium], ray, way, numbers, light);
@@ -127,6 +130,45 @@ Rgb Media::transmittance(const Ray& ray, FlightNumbers numbers) const {
         return !is_black(light);
     });
     return light;
+}
+
+// One place in each cell tells of its extinction: an error that has no direction, which that of an estimate of what is
+// left of light would have.
+void Media::cut_uneven(const Ray& ray, const Stretch& way, float longest, FlightNumbers& numbers,
+                       std::vector<MediumPiece>& pieces) const {
+    const Medium& medium = data_.media[way.medium];
+    Stretch piece{};
+    Rgb collisions;
+    const auto finish = [&] {
+        const bool scatters = !is_black(medium.albedo.value) && !is_black(collisions);
+        if (piece.end > piece.begin)
+            pieces.push_back({piece.begin, piece.end, collisions * (1 / (piece.end - piece.begin)), scatters});
+        piece.begin = piece.end, collisions = {};
+    };
+    bounds_[way.medium].each_cell(ray, way.begin, way.end, [&](float begin, float end, float most) {
+        if (piece.end == 0) piece.begin = begin;
+        piece.end = end;
+        const Vec3 place = ray.origin + ray.direction * (begin + (end - begin) * numbers.next());
+        if (most > 0) collisions += medium.extinction.at(place) * (end - begin);
+        if (piece.end - piece.begin >= longest) finish();
+        return true;
+    });
+    finish();
+}
+
+void Media::cut(const Ray& ray, float longest, Vec2 first, std::vector<MediumPiece>& pieces) const {
+    constexpr float most_pieces = 4096;
+    FlightNumbers numbers(ray, first);
+    each_stretch(ray, [&](const Stretch& way) {
+        const Medium& medium = data_.media[way.medium];
+        if (medium.extinction.grid) return cut_uneven(ray, way, longest, numbers, pieces), true;
+        const float length = way.end - way.begin, count = std::clamp(std::ceil(length / longest), 1.0f, most_pieces);
+        const bool scatters = !is_black(medium.albedo.value) && !is_black(medium.extinction.value);
+        for (float i = 0; i < count; ++i)
+            pieces.push_back({way.begin + length * (i / count), way.begin + length * ((i + 1) / count),
+                              medium.extinction.value, scatters});
+        return true;
+    });
 }
 
 SurfacePoint Media::point(Vec3 position, std::uint16_t medium) const {

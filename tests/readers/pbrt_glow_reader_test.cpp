@@ -6,6 +6,7 @@
 
 #include "core/readers/pbrt/older_light.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_media.hpp"
 #include "tests/support/nanovdb_bytes.hpp"
 #include "tests/support/pbrt_text.hpp"
 
@@ -64,7 +65,7 @@ TEST(PbrtNanovdb, LetsAsMuchLightThroughAsTheLawSays) {
     constexpr int count = 20000;
     for (int i = 0; i < count; ++i) {
         const Vec2 u{(float(i) + 0.5f) / count, float(i * 7919 % count) / count};
-        sum += double{scene.transmittance({{-3, 0.5f, 0.5f}, {1, 0, 0}, 6}, u).g} / count;
+        sum += double{scene.media().transmittance({{-3, 0.5f, 0.5f}, {1, 0, 0}, 6}, u).g} / count;
     }
     EXPECT_NEAR(sum, std::exp(-1), 0.01);
 }

@@ -7,6 +7,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_media.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet::media_test {
@@ -47,7 +48,7 @@ constexpr std::uint32_t many = 1 << 14;
 Mean mean_flight(const Scene& scene, const Ray& ray, Rgb carried = {1, 1, 1}) {
     Mean mean;
     for (std::uint32_t i = 0; i < many; ++i) {
-        const Flight flight = scene.fly(ray, carried, Samples(7, i).next_2d());
+        const Flight flight = scene.media().fly(ray, carried, Samples(7, i).next_2d());
         (flight.collision ? mean.collided : mean.passed) += flight.weight / float(many);
     }
     return mean;
@@ -67,10 +68,10 @@ TEST(Media, LeaveAsMuchOfLightAsBeerAndLambertSay) {
     ASSERT_TRUE(scene.has_media());
     const Rgb left{std::exp(-0.2f), std::exp(-1.0f), std::exp(-4.0f)};
     const Ray through{{-3, 0, 0}, {1, 0, 0}};
-    expect_near(scene.transmittance(through, {}), left, 1e-5f);
-    expect_near(scene.transmittance({{0, 0, 0}, {0, 1, 0}}, {}), {std::exp(-0.1f), std::exp(-0.5f), std::exp(-2.0f)},
-                1e-5f);
-    expect_near(scene.transmittance({{-3, 0, 0}, {1, 0, 0}, 1.5f}, {}), {1, 1, 1}, 0);
+    expect_near(scene.media().transmittance(through, {}), left, 1e-5f);
+    expect_near(scene.media().transmittance({{0, 0, 0}, {0, 1, 0}}, {}),
+                {std::exp(-0.1f), std::exp(-0.5f), std::exp(-2.0f)}, 1e-5f);
+    expect_near(scene.media().transmittance({{-3, 0, 0}, {1, 0, 0}, 1.5f}, {}), {1, 1, 1}, 0);
     for (const Rgb carried : {Rgb{1, 1, 1}, Rgb{0.2f, 3, 0.1f}}) {
         const Mean mean = mean_flight(scene, through, carried);
         expect_near(mean.passed, left, 0.02f);
@@ -86,9 +87,10 @@ TEST(Media, LieInsideOfEachOtherAndAroundEverything) {
     data.around = 1;
     const Scene scene(data);
     // from outside of both to the middle: 3 m around, 1 m in the larger ball, 1 m in the smaller one
-    EXPECT_NEAR(scene.transmittance({{-5, 0, 0}, {1, 0, 0}, 5}, {}).g, std::exp(-0.75f - 1 - 2), 1e-5f);
-    EXPECT_NEAR(scene.transmittance({{0, 0, 0}, {0, 0, 1}, 0.5f}, {}).g, std::exp(-1.0f), 1e-5f);
-    EXPECT_NEAR(scene.transmittance({{-5, 9, 0}, {1, 0, 0}, 4}, {}).g, std::exp(-1.0f), 1e-5f) << "met by no shape";
+    EXPECT_NEAR(scene.media().transmittance({{-5, 0, 0}, {1, 0, 0}, 5}, {}).g, std::exp(-0.75f - 1 - 2), 1e-5f);
+    EXPECT_NEAR(scene.media().transmittance({{0, 0, 0}, {0, 0, 1}, 0.5f}, {}).g, std::exp(-1.0f), 1e-5f);
+    EXPECT_NEAR(scene.media().transmittance({{-5, 9, 0}, {1, 0, 0}, 4}, {}).g, std::exp(-1.0f), 1e-5f)
+        << "met by no shape";
 }
 
 TEST(Media, OfAGridLeaveWhatItsIntegralLeaves) {
@@ -102,7 +104,7 @@ TEST(Media, OfAGridLeaveWhatItsIntegralLeaves) {
     Rgb sum;
     double squares = 0;
     for (std::uint32_t i = 0; i < many; ++i) {
-        const Rgb one = scene.transmittance(along, Samples(3, i).next_2d());
+        const Rgb one = scene.media().transmittance(along, Samples(3, i).next_2d());
         sum += one / float(many);
         squares += double(one.r) * one.r / many;
     }
@@ -144,7 +146,9 @@ TEST(VolumeGrids, OfBlocksAreThoseWithoutThem) {
         data.media.push_back(fog({0.3f, 0.2f, 0.1f}, {}));
         data.media[0].extinction.grid = std::make_shared<const VolumeGrid>(grid);
         fill(data, {0.5f, 0.5f, 0.5f}, 2, 0, Query::no_medium);
-        return Scene(std::move(data)).transmittance({{-3, 0.3f, 0.6f}, normalize({1, 0.05f, 0.1f})}, {0.3f, 0.7f});
+        return Scene(std::move(data))
+            .media()
+            .transmittance({{-3, 0.3f, 0.6f}, normalize({1, 0.05f, 0.1f})}, {0.3f, 0.7f});
     };
     EXPECT_EQ(light(rows), light(blocks));
     VolumeGrid wrong = blocks;
@@ -169,7 +173,7 @@ TEST(VolumeGrids, OfManyPointsLeaveWhatTheLawSays) {
     const Scene scene(std::move(data));
     Rgb sum;
     for (std::uint32_t i = 0; i < many; ++i)
-        sum += scene.transmittance({{-3, 0.3f, 0.6f}, {1, 0, 0}}, Samples(5, i).next_2d()) / float(many);
+        sum += scene.media().transmittance({{-3, 0.3f, 0.6f}, {1, 0, 0}}, Samples(5, i).next_2d()) / float(many);
     expect_near(sum, {std::exp(-1.0f), std::exp(-0.5f), 1}, 0.015f);
 }
 
@@ -190,7 +194,7 @@ TEST(Media, ShineAsMuchAsTheyLetThrough) {
         const Scene scene(data);
         Rgb sum;
         for (std::uint32_t i = 0; i < many; ++i)
-            sum += scene.fly({{-6, 2, 2}, {1, 0, 0}}, {1, 1, 1}, Samples(3, i).next_2d()).emitted / float(many);
+            sum += scene.media().fly({{-6, 2, 2}, {1, 0, 0}}, {1, 1, 1}, Samples(3, i).next_2d()).emitted / float(many);
         const float shine = (1 - std::exp(-2.0f)) / 0.5f;
         expect_near(sum, Rgb{3, 2, 1} * shine, grid ? 0.06f : 1e-3f);
     }

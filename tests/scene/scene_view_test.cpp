@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_media.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet::scene_view_test {
@@ -102,9 +103,9 @@ std::vector<Read> reads_of_light() {
             {"has_media", ScenePart::media, [](const Scene& scene) { scene.has_media(); }},
             {"fly", ScenePart::media,
              [=](const Scene& scene) {
-                 scene.fly(ray, {1, 1, 1}, {});
+                 scene.media().fly(ray, {1, 1, 1}, {});
              }},
-            {"transmittance", ScenePart::media, [=](const Scene& scene) { scene.transmittance(ray, {}); }}};
+            {"transmittance", ScenePart::media, [=](const Scene& scene) { scene.media().transmittance(ray, {}); }}};
 }
 
 std::vector<Read> reads_of_the_eye() {

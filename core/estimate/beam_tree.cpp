@@ -1,0 +1,112 @@
+#include "core/estimate/beam_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "core/base/math/sampling.hpp"
+#include "core/scene/direct_light.hpp"
+
+namespace lightnet {
+namespace {
+
+auto rank(const PhotonBeam& beam) {
+    return std::tuple(beam.from.x, beam.from.y, beam.from.z, beam.along.x, beam.along.y, beam.along.z, beam.length,
+                      beam.flux.r, beam.flux.g, beam.flux.b, beam.group);
+}
+
+Vec3 middle(const PhotonBeam& beam) { return beam.from + beam.along * (0.5f * beam.length); }
+
+float distance2(const Box& box, Vec3 position) {
+    float sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float off = std::max({box.low[axis] - position[axis], position[axis] - box.high[axis], 0.0f});
+        sum += off * off;
+    }
+    return sum;
+}
+
+}  // namespace
+
+BeamTree::BeamTree(std::vector<PhotonBeam> beams) : beams_(std::move(beams)) {
+    if (!beams_.empty()) build(0, static_cast<std::uint32_t>(beams_.size()));
+}
+
+void BeamTree::build(std::uint32_t first, std::uint32_t count) {
+    Box box, middles;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        box.add(beams_[i].from), box.add(beams_[i].to());
+        middles.add(middle(beams_[i]));
+    }
+    const std::size_t at = nodes_.size();
+    nodes_.push_back({box, first, 0});
+    if (count <= leaf_beams) return;
+    const std::size_t axis = middles.longest_axis();
+    // All leaves but one are full.
+    const std::uint32_t leaves = (count + leaf_beams - 1) / leaf_beams;
+    const std::uint32_t half = leaves / 2 * static_cast<std::uint32_t>(leaf_beams);
+    const auto begin = beams_.begin() + first;
+    std::nth_element(begin, begin + half, begin + count, [axis](const PhotonBeam& a, const PhotonBeam& b) {
+        const float x = middle(a)[axis], y = middle(b)[axis];
+        return x != y ? x < y : rank(a) < rank(b);
+    });
+    build(first, half);
+    nodes_[at].beyond = static_cast<std::uint32_t>(nodes_.size());
+    build(first + half, count - half);
+}
+
+// Squared distances from a point to the lines of beams; infinite where it lies before their beginning or beyond their
+// end.
+void BeamTree::offer_leaf(const Node& leaf, Vec3 position, Nearest& scratch) const {
+    std::array<float, leaf_beams> distances2;
+    distances2.fill(std::numeric_limits<float>::infinity());
+    const std::size_t count = std::min(leaf_beams, beams_.size() - leaf.first);
+    for (std::size_t i = 0; i < count; ++i) {
+        const PhotonBeam& beam = beams_[leaf.first + i];
+        const Vec3 offset = position - beam.from;
+        const float passed = dot(offset, beam.along);
+        if (passed >= 0 && passed < beam.length) distances2[i] = length_squared(offset - beam.along * passed);
+    }
+    scratch.offer(distances2, leaf.first);
+}
+
+std::span<const Nearest::Item> BeamTree::find(Vec3 position, float radius, std::size_t most, Nearest& scratch) const {
+    scratch.begin(most, radius * radius);
+    if (nodes_.empty()) return {};
+    std::array<std::uint32_t, 64> waiting;
+    std::size_t count = 0;
+    waiting[count++] = 0;
+    while (count > 0) {
+        const std::uint32_t at = waiting[--count];
+        const Node& node = nodes_[at];
+        if (distance2(node.box, position) > scratch.limit()) continue;
+        if (node.beyond == 0) {
+            offer_leaf(node, position, scratch);
+            continue;
+        }
+        const auto children = std::pair(at + 1, node.beyond);
+        const bool left_first =
+            distance2(nodes_[children.first].box, position) <= distance2(nodes_[children.second].box, position);
+        waiting[count++] = left_first ? children.second : children.first;
+        waiting[count++] = left_first ? children.first : children.second;
+    }
+    return scratch.sorted([this](std::uint32_t a, std::uint32_t b) { return rank(beams_[a]) < rank(beams_[b]); });
+}
+
+void BeamTree::radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch, std::span<Rgb> to) const {
+    if (!(at.bsdf.lobes() & at.lobes)) return;
+    const auto found = find(at.point.position, radius, most, scratch);
+    const float r2 = most && found.size() == most ? found.back().distance2 : radius * radius;
+    if (found.empty() || !(r2 > 0)) return;
+    for (const auto& item : found) {
+        const PhotonBeam& beam = beams_[item.index];
+        const Rgb left = left_after(&beam.extinction, dot(at.point.position - beam.from, beam.along));
+        const Rgb scattered = at.bsdf.evaluate(at.outgoing, -beam.along, at.lobes);
+        to[to.size() == 1 ? 0 : beam.group] += beam.flux * left * scattered * (1 - item.distance2 / r2);
+    }
+    for (Rgb& sum : to) sum = sum * (2 / (pi * r2));
+}
+
+}  // namespace lightnet

@@ -1,0 +1,127 @@
+// What photon maps answer at points in media, beside light that is known, and beside paths.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/small_network.hpp"
+#include "tests/support/small_scenes.hpp"
+
+namespace lightnet::beams_test {
+namespace {
+
+using namespace test;
+
+Value number(double value) { return Value{value}; }
+Value word(const char* text) { return Value{std::string(text)}; }
+
+Medium fog(Rgb extinction, Rgb albedo, float g = 0) {
+    Medium medium;
+    medium.extinction.value = extinction;
+    medium.albedo.value = albedo;
+    if (g != 0) medium.phase.law = PhaseFunction::Law::henyey_greenstein, medium.phase.g = g;
+    return medium;
+}
+
+double green(const std::vector<Rgb>& picture) {
+    double sum = 0;
+    for (const Rgb& pixel : picture) sum += pixel.g;
+    return sum / double(picture.size());
+}
+
+// A lamp in the fog, seen by a camera that looks past it. So little is scattered that nothing is twice.
+TEST(PhotonBeams, OfAPointLightAreAsBrightAsOneScatteringSays) {
+    constexpr float extinction = 0.3f, albedo = 0.005f, g = 0.4f;
+    SceneData data;
+    data.media.push_back(fog({extinction, extinction, extinction}, {albedo, albedo, albedo}, g));
+    data.around = 0;
+    add(data, quad({-9, -9, -6}, {18, 0, 0}, {0, 18, 0}), diffuse(data, 0));
+    data.lights.push_back(PointLight{{0, 1, 0}, {5, 5, 5}});
+    data.camera = camera({0, 0, 3}, {0, 0, 0}, 0.02f);
+    data.camera_given = true;
+    const PhaseFunction phase = data.media[0].phase;
+    double expected = 0;
+    constexpr int steps = 100000;
+    constexpr double end = 9;  // metres to the wall
+    for (int i = 0; i < steps; ++i) {
+        const double t = (i + 0.5) * end / steps, z = 3 - t, d = std::sqrt(1 + z * z);
+        expected += extinction * albedo * phase.density(float(z / d)) * 5 / (d * d) * std::exp(-extinction * (t + d)) *
+                    end / steps;
+    }
+    SmallNetwork network(std::move(data), 16, 16);
+    network.add("map", "PhotonMap", {},
+                {{"paths", word("all")}, {"photons", number(1000)}, {"beams", number(30000)}, {"aim", Value{false}}});
+    EXPECT_NEAR(green(network.picture(128)), expected, 0.03 * expected);
+    SmallNetwork& progressive = network.add(
+        "maps", "ProgressivePhotonMapping", {},
+        {{"paths", word("all")}, {"photons", number(1000)}, {"beams", number(4000)}, {"radius", number(0.15)}});
+    EXPECT_NEAR(green(progressive.picture(128)), expected, 0.03 * expected);
+}
+
+// A room full of fog, with a lamp at its ceiling: all of its light, by paths and by a map.
+SceneData foggy_room(const Medium& medium) {
+    SceneData data;
+    add(data, room(), diffuse(data, 0.6f));
+    add(data, quad({0.3f, 0.9f, 0.3f}, {0.4f, 0, 0}, {0, 0, 0.4f}), diffuse(data, 0)).emission =
+        AreaEmission{{3, 3, 3}, true};
+    data.media.push_back(medium);
+    data.around = 0;
+    data.camera = camera({0.5f, 0.5f, 0.05f}, {0.5f, 0.4f, 1}, 60);
+    data.camera_given = true;
+    return data;
+}
+
+Medium lumps(float extinction) {
+    Medium medium = fog({extinction, extinction / 2, extinction / 4}, {0.9f, 0.9f, 0.9f}, 0.3f);
+    VolumeGrid grid;
+    grid.size = {4, 4, 4};
+    for (int i = 0; i < 64; ++i) grid.values.push_back(float(i * 7 % 5) / 4);
+    medium.extinction.grid = std::make_shared<const VolumeGrid>(grid);
+    return medium;
+}
+
+TEST(PhotonBeams, BringToARoomFullOfFogWhatPathsBring) {
+    for (const Medium& medium :
+         {fog({1, 1, 1}, {0.8f, 0.8f, 0.8f}, 0.5f), fog({0.5f, 1.5f, 3}, {1, 0.7f, 0.9f}), lumps(4)}) {
+        SmallNetwork network(foggy_room(medium), 32, 32);
+        network.add("direct", "DirectLighting")
+            .add("bounce", "PathTracing")
+            .add("paths", "Combine", {"direct", "bounce"});
+        const auto exact = network.picture(256);
+        network.add("map", "PhotonMap", {},
+                    {{"paths", word("all")}, {"photons", number(200000)}, {"beams", number(100000)}});
+        const auto mapped = network.picture(32);
+        Rgb sum, wanted;
+        for (std::size_t i = 0; i < exact.size(); ++i) sum += mapped[i], wanted += exact[i];
+        EXPECT_NEAR(sum.r, wanted.r, 0.03 * wanted.r);
+        EXPECT_NEAR(sum.g, wanted.g, 0.03 * wanted.g);
+        EXPECT_NEAR(sum.b, wanted.b, 0.03 * wanted.b);
+    }
+}
+
+// Under a glass ball in fog. Paths find the lamp through the glass, as it is large; direct light does not.
+TEST(PhotonBeams, OfGlassAreTheLightThatPathsFindThroughIt) {
+    SceneData data;
+    add(data, ball({0, 0, 0}, 0.5f), material(data, DielectricMaterial{}));
+    add(data, quad({-0.7f, 2, -0.7f}, {0, 0, 1.4f}, {1.4f, 0, 0}), diffuse(data, 0)).emission =
+        AreaEmission{{10, 10, 10}, true};
+    add(data, quad({-3, -1.6f, -3}, {0, 0, 6}, {6, 0, 0}), diffuse(data, 0));
+    data.media.push_back(fog({0.05f, 0.05f, 0.05f}, {0.02f, 0.02f, 0.02f}));
+    data.around = 0;
+    data.camera = camera({0, -1, 3}, {0, -1, 0}, 12);
+    data.camera_given = true;
+    SmallNetwork network(std::move(data), 24, 24);
+    const double exact = [&] {
+        network.add("bounce", "PathTracing");
+        return green(network.picture(8192));
+    }();
+    network.add("map", "PhotonMap", {},
+                {{"photons", number(10000)}, {"beams", number(200000)}, {"radius", number(0.03)}});
+    const double mapped = green(network.picture(256));
+    EXPECT_GT(exact, 0);
+    EXPECT_NEAR(mapped, exact, 0.05 * exact);
+    network.add("none", "PhotonMap", {}, {{"photons", number(10000)}, {"beams", number(0)}});
+    EXPECT_LT(green(network.picture(16)), 1e-3 * exact);
+}
+
+}  // namespace
+}  // namespace lightnet::beams_test
