@@ -1,7 +1,6 @@
--- Fog around a glass ball: the light that it gathers is a beam, which photons find and paths hardly do.
-scene    = Scene { "glass_ball.pbrt", fog = { density = 0.0004, albedo = 0.95 } }
+-- A ball of glass in fog: what it does to a cone of light is a beam, which photons find and paths do not.
+scene    = Scene { "beam.pbrt" }
 direct   = DirectLighting { samples = 1 }
-caustics = PhotonMap      { paths = "caustic", photons = 100000, beams = 20000 }
-rest     = FinalGather    { direct }
-lighting = Combine        { direct, caustics, rest }
+caustics = PhotonMap      { paths = "caustic", photons = 100000, beams = 50000 }
+lighting = Combine        { direct, caustics }
 image    = RayTracer      { lighting, scene = scene, samples = 64, film = { 512, 512, file = "beam.exr" } }

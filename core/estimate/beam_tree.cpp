@@ -22,7 +22,7 @@ Vec3 middle(const PhotonBeam& beam) { return beam.from + beam.along * (0.5f * be
 float distance2(const Box& box, Vec3 position) {
     float sum = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float off = std::max({box.low[axis] - position[axis], position[axis] - box.high[axis], 0.0f});
+        const float off = std::max(std::max(box.low[axis] - position[axis], position[axis] - box.high[axis]), 0.0f);
         sum += off * off;
     }
     return sum;
@@ -31,7 +31,9 @@ float distance2(const Box& box, Vec3 position) {
 }  // namespace
 
 BeamTree::BeamTree(std::vector<PhotonBeam> beams) : beams_(std::move(beams)) {
-    if (!beams_.empty()) build(0, static_cast<std::uint32_t>(beams_.size()));
+    if (beams_.empty()) return;
+    build(0, static_cast<std::uint32_t>(beams_.size()));
+    put_in_columns();
 }
 
 void BeamTree::build(std::uint32_t first, std::uint32_t count) {
@@ -57,40 +59,60 @@ void BeamTree::build(std::uint32_t first, std::uint32_t count) {
     build(first + half, count - half);
 }
 
+void BeamTree::put_in_columns() {
+    leaves_.resize((beams_.size() + leaf_beams - 1) / leaf_beams);
+    for (std::size_t i = 0; i < beams_.size(); ++i) {
+        Columns& leaf = leaves_[i / leaf_beams];
+        const std::size_t k = i % leaf_beams;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            leaf.from[axis][k] = beams_[i].from[axis];
+            leaf.along[axis][k] = beams_[i].along[axis];
+        }
+        leaf.length[k] = beams_[i].length;
+    }
+}
+
 // Squared distances from a point to the lines of beams; infinite where it lies before their beginning or beyond their
 // end.
-void BeamTree::offer_leaf(const Node& leaf, Vec3 position, Nearest& scratch) const {
+void BeamTree::offer_leaf(std::size_t leaf, Vec3 position, Nearest& scratch) const {
+    constexpr float beyond = std::numeric_limits<float>::infinity();
+    const Columns& beams = leaves_[leaf];
     std::array<float, leaf_beams> distances2;
-    distances2.fill(std::numeric_limits<float>::infinity());
-    const std::size_t count = std::min(leaf_beams, beams_.size() - leaf.first);
-    for (std::size_t i = 0; i < count; ++i) {
-        const PhotonBeam& beam = beams_[leaf.first + i];
-        const Vec3 offset = position - beam.from;
-        const float passed = dot(offset, beam.along);
-        if (passed >= 0 && passed < beam.length) distances2[i] = length_squared(offset - beam.along * passed);
+    for (std::size_t i = 0; i < leaf_beams; ++i) {
+        const float x = position.x - beams.from[0][i], y = position.y - beams.from[1][i],
+                    z = position.z - beams.from[2][i];
+        const float passed = x * beams.along[0][i] + y * beams.along[1][i] + z * beams.along[2][i];
+        const float off_x = x - beams.along[0][i] * passed, off_y = y - beams.along[1][i] * passed,
+                    off_z = z - beams.along[2][i] * passed;
+        const float off = off_x * off_x + off_y * off_y + off_z * off_z;
+        distances2[i] = (passed >= 0) & (passed < beams.length[i]) ? off : beyond;
     }
-    scratch.offer(distances2, leaf.first);
+    scratch.offer(distances2, static_cast<std::uint32_t>(leaf * leaf_beams));
 }
 
 std::span<const Nearest::Item> BeamTree::find(Vec3 position, float radius, std::size_t most, Nearest& scratch) const {
     scratch.begin(most, radius * radius);
     if (nodes_.empty()) return {};
-    std::array<std::uint32_t, 64> waiting;
+    struct Waiting {
+        float distance2;
+        std::uint32_t node;
+    };
+    std::array<Waiting, 64> waiting;  // by halves, so less deep than that
     std::size_t count = 0;
-    waiting[count++] = 0;
+    waiting[count++] = {0, 0};
     while (count > 0) {
-        const std::uint32_t at = waiting[--count];
+        const auto [least, at] = waiting[--count];
+        if (least > scratch.limit()) continue;
         const Node& node = nodes_[at];
-        if (distance2(node.box, position) > scratch.limit()) continue;
         if (node.beyond == 0) {
-            offer_leaf(node, position, scratch);
+            offer_leaf(node.first / leaf_beams, position, scratch);
             continue;
         }
-        const auto children = std::pair(at + 1, node.beyond);
-        const bool left_first =
-            distance2(nodes_[children.first].box, position) <= distance2(nodes_[children.second].box, position);
-        waiting[count++] = left_first ? children.second : children.first;
-        waiting[count++] = left_first ? children.first : children.second;
+        const Waiting one{distance2(nodes_[at + 1].box, position), at + 1},
+            other{distance2(nodes_[node.beyond].box, position), node.beyond};
+        const bool one_first = one.distance2 <= other.distance2;
+        waiting[count++] = one_first ? other : one;
+        waiting[count++] = one_first ? one : other;
     }
     return scratch.sorted([this](std::uint32_t a, std::uint32_t b) { return rank(beams_[a]) < rank(beams_[b]); });
 }

@@ -21,7 +21,9 @@ public:
     explicit BeamTree(std::vector<PhotonBeam> beams);
 
     std::size_t size() const { return beams_.size(); }
-    std::size_t memory() const { return beams_.size() * sizeof(PhotonBeam) + nodes_.size() * sizeof(Node); }
+    std::size_t memory() const {
+        return beams_.size() * sizeof(PhotonBeam) + nodes_.size() * sizeof(Node) + leaves_.size() * sizeof(Columns);
+    }
 
     /// A point in a medium, and for whom.
     struct Lookup {
@@ -47,12 +49,20 @@ private:
         std::uint32_t beyond;  // its other child; 0: it is a leaf
     };
 
+    /// Of as many beams as a leaf has, side by side; where there are fewer, the last have no length.
+    struct Columns {
+        std::array<std::array<float, leaf_beams>, 3> from{}, along{};
+        std::array<float, leaf_beams> length{};
+    };
+
     void build(std::uint32_t first, std::uint32_t count);
+    void put_in_columns();
     std::span<const Nearest::Item> find(Vec3 position, float radius, std::size_t most, Nearest& scratch) const;
-    void offer_leaf(const Node& leaf, Vec3 position, Nearest& scratch) const;
+    void offer_leaf(std::size_t leaf, Vec3 position, Nearest& scratch) const;
 
     std::vector<PhotonBeam> beams_;
     std::vector<Node> nodes_;
+    std::vector<Columns> leaves_;  // all but the last are full
 };
 
 }  // namespace lightnet

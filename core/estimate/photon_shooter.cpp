@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t paths_at_once = 1024;   // whose rays are traced together
 constexpr std::uint32_t most_surfaces = 512;  // light can go round inside glass without loss
 constexpr float far_beyond = 4;               // radii of the scene, so far from its middle beams end
-constexpr float piece_of_radius = 0.125f;     // longest piece of a beam: long ones have large boxes
+constexpr float piece_of_radius = 1.0f / 32;     // longest piece of a beam: long ones have large boxes
 
 // Veach 1997, equation 5.19: where shading normals lean, light that is followed from its lamp isn't scattered as light
 // that is followed from the eye. 1 where they don't.

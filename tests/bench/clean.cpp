@@ -2,6 +2,8 @@
 // samples and with three seeds. Errors are relative squares (compare.hpp) less the reference's own noise, and FLIP.
 // Arguments: names of scenes; without any, all of them. LIGHTNET_BENCH_SAMPLES: "4,32" instead of 4, 16, 32 and 128; of
 // 1024, if it is among them, is judged that cleaning does no harm.
+// LIGHTNET_BENCH_TRUTH: pictures of so many samples of our own take the place of the references, of which those of real
+// scenes are noisy or another renderer's; their noise follows from that of fewer samples.
 // LIGHTNET_BENCH_PICTURES: a folder that keeps the noisy pictures, which take nearly all of the time, for the next run.
 // A row ends in what path tracing alone would have to spend for the cleaned error, as that falls like 1 / samples.
 #include <fmt/format.h>
@@ -129,6 +131,28 @@ Picture rendered(const std::string& scene, const SceneFiles& files, const Pictur
     return read_exr(out);
 }
 
+/// What pictures are compared with.
+struct Truth {
+    Picture picture;
+    double noise = 0;  // as a relative square error
+    int samples = 0;   // of our own; 0: it is the scene's reference, whose noise is known
+
+    /// Its noise, as a picture of so many samples shows it, whose own falls alike.
+    double noise_beside(const Picture& noisy, int count) const {
+        if (!samples) return noise;
+        return compare(picture, noisy).relative_square * count / (count + samples);
+    }
+};
+
+Truth truth_of(const ReferenceScene& scene, const SceneFiles& files) {
+    constexpr int seed_of_truth = 1000;
+    const Picture reference = read_exr(files.reference());
+    const char* samples = std::getenv("LIGHTNET_BENCH_TRUTH");
+    if (!samples || smoke()) return {reference, scene.noise, 0};
+    const int count = std::stoi(samples);
+    return {rendered(scene.name, files, reference, count, seed_of_truth), 0, count};
+}
+
 // Pixels whose beauty is not the float32 sum of the layers, each times its gain.
 double wrong_sums(const Picture& cleaned) {
     double wrong = 0;
@@ -137,7 +161,8 @@ double wrong_sums(const Picture& cleaned) {
     return wrong;
 }
 
-Row measured(const ReferenceScene& scene, const SceneFiles& files, const Picture& reference, int samples) {
+Row measured(const ReferenceScene& scene, const SceneFiles& files, const Truth& truth, int samples) {
+    const Picture& reference = truth.picture;
     Row row;
     for (int seed = 1; seed <= seeds; ++seed) {
         const Picture noisy = rendered(scene.name, files, reference, samples, seed);
@@ -146,10 +171,10 @@ Row measured(const ReferenceScene& scene, const SceneFiles& files, const Picture
         cleaned = clean(noisy);
         row.seconds.push_back((process_seconds() - cpu) / double(noisy.beauty.size()) * 1e6);
         if (smoke()) continue;
-        const Errors after = errors_of(reference, cleaned.picture, scene.noise);
-        row.add(errors_of(reference, noisy, scene.noise), after);
+        const double noise = truth.noise_beside(noisy, samples);
+        row.add(errors_of(reference, noisy, noise), errors_of(reference, cleaned.picture, noise));
         row.wrong.push_back(wrong_sums(cleaned.picture));
-        const Told told = told_by(cleaned.picture, reference, scene.noise);
+        const Told told = told_by(cleaned.picture, reference, noise);
         row.told.push_back(told.all), row.told_in_blocks.push_back(told.in_blocks);
     }
     return row;
@@ -163,9 +188,9 @@ struct Judged {
 void measure(const ReferenceScene& scene, Judged& all) {
     const SceneFiles files(scene);
     if (files.missing()) return not_run("clean." + scene.name, *files.missing());
-    const Picture reference = read_exr(files.reference());
+    const Truth truth = truth_of(scene, files);
     for (const int samples : sample_counts()) {
-        const Row row = measured(scene, files, reference, samples);
+        const Row row = measured(scene, files, truth, samples);
         if (smoke()) {
             std::printf("clean.%s ran\n", scene.name.c_str());
             continue;
