@@ -53,7 +53,7 @@ picture plates "Multiple importance sampling" "$own After Veach and Guibas (1995
     run graphs/labs/mis.lua --size 480x360 --samples 256
 picture ball "Glass and a mirror, by progressive photon mapping" "$own" \
     run graphs/progressive.lua --size 360x360 --samples 256
-picture beam "Light through a ball of glass in fog, by photon beams" "$own" run graphs/beam.lua --size 360x360 --samples 128
+picture beam "Light through a ball of glass in fog, by photon beams" "$own" run graphs/beam.lua --size 360x360 --samples 64
 picture living_room "The grey and white room, by the network of the paper's figure 5" \
     "Scene: Wig42, CC BY 3.0, by way of Benedikt Bitterli." \
     render "$scenes/living-room-pbrt/living-room.pbrt" --lighting graphs/paper/figure5.lua --size 480x270 --samples 256

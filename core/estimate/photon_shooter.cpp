@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t paths_at_once = 1024;   // whose rays are traced together
 constexpr std::uint32_t most_surfaces = 512;  // light can go round inside glass without loss
-constexpr float far_beyond = 4;               // radii of the scene, so far from its middle beams end
-constexpr float piece_of_radius = 1.0f / 32;     // longest piece of a beam: long ones have large boxes
+constexpr float far_beyond = 3;               // radii of the scene: what light does farther from its middle is left out
+constexpr float piece_of_radius = 1.0f / 16;  // longest piece of a beam: long ones have large boxes
 
 // Veach 1997, equation 5.19: where shading normals lean, light that is followed from its lamp isn't scattered as light
 // that is followed from the eye. 1 where they don't.
@@ -110,11 +110,14 @@ void PhotonShooter::visit(PhotonPath path, const Ray& ray, const Hit& hit, const
     go_on(std::move(path), point, bsdf, arriving, batch);
 }
 
-// Light that meets nothing passes through what media there are around the scene.
+// Light that meets nothing passes through what media there are around the scene, as far as a ball around it.
 template <class Keep>
 void PhotonShooter::leave(PhotonPath path, const Ray& ray, const Keep& keep, Batch& batch) const {
-    const float beyond = length(ray.origin - scene_.bounds().center()) + far_beyond * scene_.radius();
-    cross(path, {ray.origin, ray.direction, beyond, ray.time}, keep, batch);
+    const Vec3 from = ray.origin - scene_.bounds().center();
+    const float radius = far_beyond * scene_.radius(), along = dot(from, ray.direction);
+    const float root = along * along - length_squared(from) + radius * radius;
+    const float left = root > 0 ? std::sqrt(root) - along : 0;  // metres to the ball's edge
+    if (left > 0) cross(path, {ray.origin, ray.direction, left, ray.time}, keep, batch);
 }
 
 void PhotonShooter::go_on(PhotonPath path, const SurfacePoint& point, const Bsdf& bsdf, Vec3 arriving,

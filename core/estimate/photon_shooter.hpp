@@ -35,7 +35,7 @@ public:
     /// total).
     void shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim, std::vector<Photon>& out) const;
     /// Appends what they pass of media, in pieces, each as long as if nothing were scattered on it ("long beams").
-    /// Beyond the scene they end somewhere.
+    /// What gets farther away than three times the scene's radius is left out.
     void shoot_beams(std::uint64_t first, std::size_t count, double share, const Aim& aim,
                      std::vector<PhotonBeam>& out) const;
     enum class Kept { photons, beams };
