@@ -15,6 +15,7 @@
 
 namespace lightnet {
 
+// DECISIONS: points-ask-beams
 /// A binary tree of bounding boxes. Immutable; any thread may ask. What it answers depends on the beams alone.
 class BeamTree {
 public:
