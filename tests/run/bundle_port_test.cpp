@@ -40,12 +40,22 @@ protected:
         }
     }
     bool flush_idle() { return port.flush(BundlePort::Clock::now(), true); }
+    // After `passed` seconds of the system's clock, of which the place has had `had`.
+    bool flush_after(double passed, double had) {
+        own = seconds(had);
+        return port.flush(begun + seconds(passed), false);
+    }
+    static std::chrono::nanoseconds seconds(double count) {
+        return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * count));
+    }
 
     Fibers fibers;
     std::vector<Fibers::Fiber*> ready;
     FakeChannel<Query> channel;
     BundleRules rules{8, std::chrono::microseconds(1000000), 2};
-    BundlePort port{fibers, [this](Fibers::Fiber* fiber) { ready.push_back(fiber); }, 1, rules};
+    const BundlePort::Clock::time_point begun = BundlePort::Clock::now();
+    std::chrono::nanoseconds own{0};  // that the place has had
+    BundlePort port{fibers, [this](Fibers::Fiber* fiber) { ready.push_back(fiber); }, 1, rules, [this] { return own; }};
     std::uint32_t next = 0;
     int answered = 0;
 };
@@ -126,30 +136,77 @@ TEST_F(BundlePortTest, ThrowsWhereTheAnswerWasAwaited) {
 
 TEST_F(BundlePortTest, SendsWhatHasWaitedForLong) {
     ask(1);
-    const auto now = BundlePort::Clock::now();
-    EXPECT_FALSE(port.flush(now, false));
-    EXPECT_TRUE(port.flush(now + std::chrono::seconds(2), false));
+    EXPECT_FALSE(flush_after(.5, .5));
+    EXPECT_TRUE(flush_after(2, 2));
+    channel.answer();
+    run_ready();
+}
+
+TEST_F(BundlePortTest, WaitsForAsLongAsItsPlaceHasHadATurn) {
+    ask(1);
+    EXPECT_FALSE(flush_after(20, .3)) << "other programs had the processor: nobody could have asked meanwhile";
+    ask(1);
+    EXPECT_FALSE(flush_after(40, .6));
+    EXPECT_TRUE(flush_after(60, 1.1));
+    ASSERT_EQ(channel.sent.size(), 1u);
+    EXPECT_EQ(channel.sent.front().questions->size(), 2u);
     channel.answer();
     run_ready();
 }
 
 TEST_F(BundlePortTest, WaitsLongerForCompanyWhereAnswersTakeLong) {
-    using std::chrono::seconds;
     ask(1);
-    port.flush(BundlePort::Clock::now() - seconds(10), true);  // sent so long ago
+    port.flush(begun - seconds(10), true);  // sent so long ago
     channel.answer();
     run_ready();
     ask(1);
-    const auto now = BundlePort::Clock::now();
-    EXPECT_FALSE(port.flush(now + seconds(2), false)) << "five seconds are half of what the last answer took";
-    EXPECT_TRUE(port.flush(now + seconds(6), false));
+    EXPECT_FALSE(flush_after(2, 2)) << "five seconds are half of what the last answer took";
+    EXPECT_TRUE(flush_after(6, 6));
     channel.answer();
     run_ready();
 }
 
+// On a simulated clock a place has a turn of a tenth of a millisecond, and others of the machine none or nineteen;
+// every second turn it asks.
+TEST_F(BundlePortTest, SendsAsFewBundlesWhereOthersHaveTheProcessor) {
+    const auto bundles_beside = [&](int others) {
+        BundlePort lone{fibers,
+                        [this](Fibers::Fiber* fiber) { ready.push_back(fiber); },
+                        1,
+                        {64, std::chrono::microseconds(3000), 2},
+                        [this] { return own; }};
+        FakeChannel<Query> far;
+        lone.replicas().use({&far});
+        std::size_t bundles = 0;
+        auto now = BundlePort::Clock::now();
+        for (int step = 0; step < 400; ++step) {  // each a tenth of a millisecond of the place's own
+            if (step % 2 == 0)
+                fibers.start("asker", [&] {
+                    const auto queries = questions(1);
+                    std::vector<Rgb> answers(1);
+                    lone.finish(lone.begin(queries, answers));
+                });
+            own += std::chrono::microseconds(100);
+            now += std::chrono::microseconds(100) * (1 + others);
+            lone.flush(now, false);
+            bundles += far.sent.size();
+            while (!far.sent.empty()) far.answer();
+            run_ready();
+        }
+        lone.flush(now, true);
+        while (!far.sent.empty()) far.answer();
+        run_ready();
+        return bundles;
+    };
+    const auto alone = bundles_beside(0);
+    EXPECT_GT(alone, 5u);
+    EXPECT_EQ(bundles_beside(19), alone);
+}
+
 TEST_F(BundlePortTest, SendsNoLessAtOnceWhereAnswersWaitLongAndAreLittleWork) {
     FakeChannel<Query> busy(1000, 1000);  // a microsecond of work each
-    BundlePort to_busy{fibers, [this](Fibers::Fiber* fiber) { ready.push_back(fiber); }, 1, rules};
+    BundlePort to_busy{fibers, [this](Fibers::Fiber* fiber) { ready.push_back(fiber); }, 1, rules,
+                       [this] { return own; }};
     double now = 0;
     MultiplexerRules by_hand;
     by_hand.clock = [&now] { return now; };

@@ -33,10 +33,11 @@ Port::Ticket BundlePort::begin(std::span<const Query> questions, std::span<Rgb> 
     ask.bundled = 0, ask.unanswered = questions.size();
     ask.edge = gauge_ ? gauge_->along : nullptr;
     const Ticket ticket = number_of(slot, ask.uses);
-    if (waiting_ == 0) oldest_ = Clock::now();
+    const bool first = waiting_ == 0;
     unbundled_.push_back(ticket);
     waiting_ += questions.size();
     if (waiting_ >= rules_.questions) flush(Clock::now(), false);
+    if (first && waiting_ > 0) company_.begin(Clock::now());
     return ticket;
 }
 
@@ -79,12 +80,6 @@ void BundlePort::finish(Ticket ticket) {
     throw NodeError(failure.why, failure.host);
 }
 
-// Who waits long for an answer anyway loses little by waiting for company first.
-// DECISIONS: three-milliseconds-of-patience
-std::chrono::nanoseconds BundlePort::patience() const {
-    return std::clamp<std::chrono::nanoseconds>(answer_time_ / 2, rules_.oldest, 16 * rules_.oldest);
-}
-
 // By the work alone: what waits at replicas that are busy, or for others whom they ask, is no reason to send less at
 // once.
 // DECISIONS: little-for-strangers
@@ -98,7 +93,7 @@ std::size_t BundlePort::full() const {
 bool BundlePort::due(Clock::time_point now, bool idle) {
     if (waiting_ == 0 || kept_back_) return false;
     if (waiting_ >= full()) return true;
-    if (now - oldest_ >= patience()) return true;
+    if (company_.is_over(now)) return true;
     return idle && replicas_.bundles_outstanding() < rules_.eager * replicas_.places();
 }
 
@@ -192,7 +187,7 @@ Bundle<Query> BundlePort::make_bundle(Clock::time_point now, std::size_t most, b
     }
     unbundled_.erase(unbundled_.begin(), unbundled_.begin() + static_cast<std::ptrdiff_t>(first_));
     first_ = 0;
-    oldest_ = now;  // what is left came later than what goes
+    if (waiting_ > 0) company_.begin(now);  // what is left came later than what goes
     return {std::move(questions), this, number, static_cast<std::uint32_t>(width_)};
 }
 
@@ -209,7 +204,7 @@ std::chrono::nanoseconds BundlePort::until_due(Clock::time_point now) const {
     const auto never = replicas_.until_due();
     if (!again_.empty()) return std::chrono::milliseconds(1);
     if (waiting_ == 0 || !replicas_.has_credit()) return never;
-    return std::max<std::chrono::nanoseconds>(oldest_ + patience() - now, std::chrono::microseconds(50));
+    return std::max<std::chrono::nanoseconds>(company_.left(now), std::chrono::microseconds(50));
 }
 
 void BundlePort::settle(Ask& ask) {
@@ -234,7 +229,7 @@ void BundlePort::answered(const Bundle<Query>& bundle, std::vector<Rgb> answers)
         count_->nanoseconds.add(static_cast<std::uint64_t>(took.count()));
         count_->bytes.add(answers.size() * sizeof(Rgb));
     }
-    answer_time_ = answer_time_ == answer_time_.zero() ? took : (3 * answer_time_ + took) / 4;
+    company_.answered(took);
     hand_out(*slices, bundle, answers);
 }
 

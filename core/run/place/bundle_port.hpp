@@ -15,6 +15,7 @@
 #include "core/run/assembly/gauge.hpp"
 #include "core/run/fiber/fiber.hpp"
 #include "core/run/message/channel.hpp"
+#include "core/run/place/company_wait.hpp"
 #include "core/run/schedule/multiplexer.hpp"
 
 namespace lightnet {
@@ -22,7 +23,7 @@ namespace lightnet {
 /// When a bundle goes.
 struct BundleRules {
     std::size_t questions;             // it is full
-    std::chrono::microseconds oldest;  // a question has waited so long, and half of what an answer takes
+    std::chrono::microseconds oldest;  // a question has waited so long, and half of what an answer takes, by own time
     std::size_t eager;                 // else only when the place has nothing else to do and fewer are out
     friend bool operator==(const BundleRules&, const BundleRules&) = default;
 };
@@ -35,11 +36,17 @@ public:
     using Clock = std::chrono::steady_clock;
     using Wake = std::function<void(Fibers::Fiber*)>;
 
-    /// What goes through it is counted in `count`, and at the edge that the gauge says is asked along, if these are
-    /// given; they must outlive it.
-    BundlePort(Fibers& fibers, Wake wake, std::size_t width, BundleRules rules, Gauge::Node* count = nullptr,
-               const Gauge* gauge = nullptr)
-        : fibers_(fibers), wake_(std::move(wake)), width_(width), rules_(rules), count_(count), gauge_(gauge) {}
+    /// `own` tells the time that the place has had. What goes through it is counted in `count`, and at the edge that
+    /// the gauge says is asked along, if these are given; they must outlive it.
+    BundlePort(Fibers& fibers, Wake wake, std::size_t width, BundleRules rules, CompanyWait::OwnClock own,
+               Gauge::Node* count = nullptr, const Gauge* gauge = nullptr)
+        : fibers_(fibers),
+          wake_(std::move(wake)),
+          width_(width),
+          rules_(rules),
+          count_(count),
+          gauge_(gauge),
+          company_(rules.oldest, std::move(own)) {}
 
     /// Where the bundles go.
     Multiplexer<Query>& replicas() { return replicas_; }
@@ -95,7 +102,6 @@ private:
 
     Ask* find(Ticket ticket);
     void close(Ticket ticket);
-    std::chrono::nanoseconds patience() const;
     std::size_t full() const;
     bool due(Clock::time_point now, bool idle);
     void foresee(bool idle);
@@ -123,13 +129,12 @@ private:
     std::size_t first_ = 0;
     std::size_t waiting_ = 0;  // questions in no bundle yet
     bool kept_back_ = false;
-    std::size_t foreseen_ = 0;                 // as the replicas were told last
-    std::chrono::nanoseconds answer_time_{0};  // from sending a bundle to its answer, smoothed
-    Clock::time_point oldest_;                 // since when the first of them has waited, at most
-    std::deque<Slices> slices_;                // by slot in the number of the bundle
-    std::vector<std::uint32_t> unused_;        // slots of slices_
-    std::vector<Buffer> buffers_;              // that no bundle has now
-    std::deque<Bundle<Query>> again_;          // came back unanswered
+    std::size_t foreseen_ = 0;           // as the replicas were told last
+    CompanyWait company_;                // of the first of them, at most
+    std::deque<Slices> slices_;          // by slot in the number of the bundle
+    std::vector<std::uint32_t> unused_;  // slots of slices_
+    std::vector<Buffer> buffers_;        // that no bundle has now
+    std::deque<Bundle<Query>> again_;    // came back unanswered
 };
 
 }  // namespace lightnet

@@ -122,7 +122,7 @@ void Place::work_once(Clock::time_point begun) {
 void Place::wait() {
     const auto begun = Clock::now();
     const ScopedActivity turned(gauge_, fibers_.alive() > 0 ? Gauge::waiting : Gauge::idle);
-    carrier_.wait(ports_.patience());
+    ports_.wait();
     (fibers_.alive() ? record_.waited_ns : record_.idle_ns) += nanoseconds_since(begun);
 }
 

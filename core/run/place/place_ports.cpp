@@ -49,17 +49,16 @@ Port* PlacePorts::port_to_sectors(Key key) {
 Port* PlacePorts::port_to_one(Key key) {
     auto& port = ports_[key];
     if (!port) {
-        port = std::make_unique<RoutingPort>([this, key] { return direct_port_to(key); },
-                                             [this, key] { return bundle_port_to(key); });
+        const auto direct = [this, key] {
+            return within_
+                .emplace_back(std::make_unique<DirectPort>(at_.assembly().callee(key.first), key.second,
+                                                           at_.counters.local_questions, at_.pause))
+                .get();
+        };
+        port = std::make_unique<RoutingPort>(direct, [this, key] { return bundle_port_to(key); });
         lead(key, *port);
     }
     return port.get();
-}
-
-Port* PlacePorts::direct_port_to(Key key) {
-    auto port = std::make_unique<DirectPort>(at_.assembly().callee(key.first), key.second, at_.counters.local_questions,
-                                             at_.pause);
-    return within_.emplace_back(std::move(port)).get();
 }
 
 Port* PlacePorts::bundle_port_to(Key key) {
@@ -70,8 +69,8 @@ Port* PlacePorts::bundle_port_to(Key key) {
     const BundleRules bundles{tuning.bundle, std::chrono::microseconds(tuning.oldest_us), tuning.eager};
     remote.edge = {static_cast<std::uint32_t>(node), credit, {}, {}};
     if (tuning.call_own_nodes) remote.edge.reserve = at_.me;
-    remote.port =
-        std::make_unique<BundlePort>(at_.fibers, at_.wake, width, bundles, &at_.gauge.nodes[node], &at_.gauge);
+    remote.port = std::make_unique<BundlePort>(
+        at_.fibers, at_.wake, width, bundles, [this] { return own_time_.now(); }, &at_.gauge.nodes[node], &at_.gauge);
     remote.port->replicas().follow(multiplexer_rules(node), &at_.counters);
     remote.port->keep_back(called_here(node) && helpers_of(node) > 0);
     channels_.connect(remote.edge, remote.port->replicas(), plan_for(node));
@@ -110,11 +109,12 @@ bool PlacePorts::flush(bool idle) {
     return sent;
 }
 
-std::chrono::nanoseconds PlacePorts::patience() const {
+void PlacePorts::wait() {
     std::chrono::nanoseconds least = std::chrono::milliseconds(100);
     const auto now = Clock::now();
     for (const auto& [key, remote] : remotes_) least = std::min(least, remote.port->until_due(now));
-    return least;
+    at_.carrier.wait(least);
+    own_time_.slept(least, Clock::now() - now);
 }
 
 }  // namespace lightnet

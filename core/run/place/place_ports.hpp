@@ -15,6 +15,7 @@
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/run/place/bundle_port.hpp"
+#include "core/run/place/own_time.hpp"
 #include "core/run/schedule/remote_channels.hpp"
 #include "core/run/schedule/routing_port.hpp"
 
@@ -49,8 +50,8 @@ public:
     void arrived(Message& message) { channels_.arrived(message); }
     /// Sends what is due; `idle`: or would be. False: nothing was sent.
     bool flush(bool idle);
-    /// How long nothing will be due.
-    std::chrono::nanoseconds patience() const;
+    /// The place has nothing to do: until a message has come, or something is due.
+    void wait();
     /// Begins to answer some of what waits for helpers. False: nothing does.
     bool start_own();
 
@@ -75,7 +76,6 @@ private:
 
     Port* port_to_one(Key key);
     Port* port_to_sectors(Key key);
-    Port* direct_port_to(Key key);
     Port* bundle_port_to(Key key);
     MultiplexerRules multiplexer_rules(std::size_t node);
     bool called_here(std::size_t node) const;
@@ -86,6 +86,7 @@ private:
     void answer_own(const Relieved& relieved, const Bundle<Query>& bundle);
 
     Lent at_;
+    OwnTime own_time_;
     Plan plan_;
     std::map<Key, std::unique_ptr<RoutingPort>> ports_;
     std::vector<Relieved> relieved_;
