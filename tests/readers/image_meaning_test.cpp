@@ -49,6 +49,12 @@ TEST(Exr, ShowsItsDisplayWindow) {
     EXPECT_EQ(read(windowed_exr({.data = {10, 10, 11, 11}})).colour(2, 1), (Rgb{0, 0, 0}));
 }
 
+// Six faces below each other are no map of the sky as it is read.
+TEST(Exr, IsNoCube) {
+    EXPECT_THROW(read(windowed_exr({.envmap = 1})), Error);
+    EXPECT_EQ(read(windowed_exr({.envmap = 0})).colour(2, 1), (Rgb{102, 102.125f, 102.25f}));
+}
+
 TEST(Exr, IsTransparentWhereThereIsNoData) {
     const Image image = read(windowed_exr({.channels = {"R", "G", "B", "A"}, .data = {1, 0, 2, 1}}));
     ASSERT_TRUE(image.has_alpha());

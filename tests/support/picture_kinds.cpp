@@ -261,6 +261,7 @@ struct ExrPlanes {
         }
         if (const auto& n = picture.chromaticities; n.size() == 8)
             Imf::addChromaticities(header, {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}});
+        if (picture.envmap) Imf::addEnvmap(header, Imf::Envmap(*picture.envmap));
     }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct ExrPicture {
     std::vector<std::string> channels{"R", "G", "B"};
     int data[4] = {0, 0, 2, 1}, display[4] = {0, 0, 2, 1};  // left, top, right, bottom
     std::vector<float> chromaticities{};                    // red, green, blue, white: x and y of each
+    std::optional<int> envmap{};                            // the attribute: 0 latitude and longitude, 1 a cube
 };
 /// The channel number c has, at each pixel of the data, 100 * y + x + c / 8.
 std::string windowed_exr(const ExrPicture& picture);

@@ -196,7 +196,9 @@ Image read_chroma(Input bytes, const Names& names) {
     return finished(file.header(), names, std::move(pixels), std::move(alpha));
 }
 
-void check_windows(const Imf::Header& header, Input bytes) {
+void check(const Imf::Header& header, Input bytes) {
+    if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
+        throw Error("EXR: it is a cube map; 'exrenvmap' makes one of latitude and longitude of it");
     const Window data(header.dataWindow()), shown(header.displayWindow());
     check_size(data.width, data.height);
     // black all around the data takes no bytes
@@ -223,13 +225,13 @@ Image decode(Input bytes) {
     if (bytes.size() > flags && (bytes[flags] & several_parts) != std::byte{}) {
         Imf::MultiPartInputFile all(memory, decoding_threads());
         Imf::InputPart part(all, part_of(all));
-        check_windows(part.header(), bytes);
+        check(part.header(), bytes);
         const Names names = names_in(part.header().channels());
         if (names.chroma) throw Error("EXR: parts with fewer samples of colour than of brightness are not supported");
         return read_channels(part, names);
     }
     Imf::InputFile file(memory, decoding_threads());
-    check_windows(file.header(), bytes);
+    check(file.header(), bytes);
     const Names names = names_in(file.header().channels());
     return names.chroma ? read_chroma(bytes, names) : read_channels(file, names);
 }
