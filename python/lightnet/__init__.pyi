@@ -469,9 +469,11 @@ class PhotonMap(Node):
     memory: number, in MB, default 0.0, 0.0 … 1000000.0
         that the photons may take; more is an error; 0: a quarter of the machine's
     gather: integer, in photons, default 60.0, 0.0 … 65536.0
-        how many of the nearest photons an answer takes; 0: all within the radius
+        how many of the nearest photons, or beams, an answer takes; 0: all within the radius
     radius: number, in scene units, default 0.0, 0.0 …
         how far they may be away; 0: a twentieth of the scene's radius
+    beams: integer, default 10000.0, 0.0 … 1000000000.0
+        light paths of which the ways through media are kept, where there are any; 0: answers in media are black
     lamps: name or list of names, default []
         groups of the scene's lamps that it looks for; none: all lamps
     groups: flag, default false
@@ -488,6 +490,7 @@ class PhotonMap(Node):
         memory: float | None = ...,
         gather: int | None = ...,
         radius: float | None = ...,
+        beams: int | None = ...,
         lamps: str | Sequence[str] | None = ...,
         groups: bool | None = ...,
         name: str | None = ...,
@@ -525,6 +528,8 @@ class ProgressivePhotonMapping(Node):
         how slowly the radius shrinks: 1 keeps it
     radius: number, in scene units, default 0.0, 0.0 …
         within which photons of the first sample count; 0: 0.013 of the scene's radius
+    beams: integer, default 1000.0, 0.0 … 1000000000.0
+        light paths of each sample of which the ways through media are kept; 0: answers in media are black
     lamps: name or list of names, default []
         groups of the scene's lamps that it looks for; none: all lamps
     groups: flag, default false
@@ -540,6 +545,7 @@ class ProgressivePhotonMapping(Node):
         memory: float | None = ...,
         alpha: float | None = ...,
         radius: float | None = ...,
+        beams: int | None = ...,
         lamps: str | Sequence[str] | None = ...,
         groups: bool | None = ...,
         name: str | None = ...,
