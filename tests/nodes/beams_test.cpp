@@ -86,7 +86,7 @@ TEST(PhotonBeams, BringToARoomFullOfFogWhatPathsBring) {
         network.add("direct", "DirectLighting")
             .add("bounce", "PathTracing")
             .add("paths", "Combine", {"direct", "bounce"});
-        const auto exact = network.picture(256);
+        const auto exact = network.picture(128);
         network.add("map", "PhotonMap", {},
                     {{"paths", word("all")}, {"photons", number(200000)}, {"beams", number(100000)}});
         const auto mapped = network.picture(32);
@@ -112,7 +112,7 @@ TEST(PhotonBeams, OfGlassAreTheLightThatPathsFindThroughIt) {
     SmallNetwork network(std::move(data), 24, 24);
     const double exact = [&] {
         network.add("bounce", "PathTracing");
-        return green(network.picture(8192));
+        return green(network.picture(4096));
     }();
     network.add("map", "PhotonMap", {},
                 {{"photons", number(10000)}, {"beams", number(200000)}, {"radius", number(0.03)}});
