@@ -72,7 +72,7 @@ public:
             if (!at.point.is_in_space())
                 tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch, groups);
             else if (beam_tree_)
-                beam_tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch, groups);
+                beam_tree_->radiance(at, radius_, gather_, scratch, groups);
         });
     }
 

@@ -59,7 +59,7 @@ public:
             if (!at.point.is_in_space())
                 maps_[map]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[map], 0, scratch, groups);
             else if (!beam_maps_.empty())
-                beam_maps_[map]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[map], 0, scratch, groups);
+                beam_maps_[map]->radiance(at, radii_[map], 0, scratch, groups);
         });
     }
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/math/sampling.hpp"
-#include "core/scene/direct_light.hpp"
 
 namespace lightnet {
 namespace {
@@ -117,7 +116,8 @@ std::span<const Nearest::Item> BeamTree::find(Vec3 position, float radius, std::
     return scratch.sorted([this](std::uint32_t a, std::uint32_t b) { return rank(beams_[a]) < rank(beams_[b]); });
 }
 
-void BeamTree::radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch, std::span<Rgb> to) const {
+void BeamTree::radiance(const Gathering& at, float radius, std::size_t most, Nearest& scratch,
+                        std::span<Rgb> to) const {
     if (!(at.bsdf.lobes() & at.lobes)) return;
     const auto found = find(at.point.position, radius, most, scratch);
     const float r2 = most && found.size() == most ? found.back().distance2 : radius * radius;

@@ -10,8 +10,7 @@
 #include "core/base/math/box.hpp"
 #include "core/estimate/nearest.hpp"
 #include "core/estimate/photon_beam.hpp"
-#include "core/scene/bsdf/bsdf.hpp"
-#include "core/scene/surfaces/surface.hpp"
+#include "core/scene/direct_light.hpp"
 
 namespace lightnet {
 
@@ -21,24 +20,12 @@ class BeamTree {
 public:
     explicit BeamTree(std::vector<PhotonBeam> beams);
 
-    std::size_t size() const { return beams_.size(); }
-    std::size_t memory() const {
-        return beams_.size() * sizeof(PhotonBeam) + nodes_.size() * sizeof(Node) + leaves_.size() * sizeof(Columns);
-    }
-
-    /// A point in a medium, and for whom.
-    struct Lookup {
-        const SurfacePoint& point;
-        const Bsdf& bsdf;
-        Vec3 outgoing;
-        std::uint8_t lobes;
-    };
     /// Radiance of each group of lamps that a collision there sends on: the density of the `most` nearest beams that
     /// pass within `radius` (m), across each of them, under Epanechnikov's kernel 2 (1 - d²/r²) / (π r²), whose radius
     /// r is the distance of the farthest, or `radius` where there are fewer (Jarosz et al. 2011, table 1: a point asks
     /// beams, with a blur in two dimensions). `most` 0: all within the radius. All groups that beams have must have a
     /// place; `to` comes zeroed.
-    void radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch, std::span<Rgb> to) const;
+    void radiance(const Gathering& at, float radius, std::size_t most, Nearest& scratch, std::span<Rgb> to) const;
 
 private:
     static constexpr std::size_t leaf_beams = Nearest::width;
