@@ -80,8 +80,8 @@ bool PhotonShooter::keeps(bool met_mirror, bool met_rough) const {
     return true;
 }
 
-// Light on its way through media to the end of a ray: false, it does not get there. What collides is scattered there;
-// light that may be kept after mirrors alone would not be, and is dimmed instead.
+// Light on its way through media to the end of a ray: false, it does not get there. A collision scatters it; but
+// caustic paths have no corner that scatters, so what would collide is taken from their light.
 template <class Keep>
 bool PhotonShooter::cross(PhotonPath& path, const Ray& way, const Keep& keep, Batch& batch) const {
     if (keeps(path.met_mirror, path.met_rough)) keep.on_way(path, way);

@@ -5,13 +5,13 @@
 
 #include <chrono>
 
+#include "core/base/processor_time.hpp"
 #include "core/network/graph/dot.hpp"
 #include "core/network/graph/json.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/light_paths.hpp"
 #include "core/network/graph/plan.hpp"
 #include "tests/support/parse.hpp"
-#include "tests/support/processor_time.hpp"
 #include "tests/support/slowdown.hpp"
 
 namespace lightnet::limits_test {
@@ -84,12 +84,12 @@ TEST(GraphLimits, AreFarAboveWhatIsTakenQuickly) {
     }
     graph.nodes.push_back(node("sum", "Combine", lights));
     graph.nodes[2].entries = {named("sum")};
-    const auto begun = test::processor_time();
+    const auto begun = thread_processor_time();
     const Examined found = examine(graph, fake_registry());
     EXPECT_TRUE(found.problems.empty());
     EXPECT_EQ(layers_of(found.graph, fake_registry()).film.size(), most_nodes - 3)
         << "emission, and all but four nodes";
-    EXPECT_LT(test::processor_time() - begun, test::slowdown * std::chrono::seconds(5));
+    EXPECT_LT(thread_processor_time() - begun, test::slowdown * std::chrono::seconds(5));
 }
 
 TEST(LongChains, AreWalkedThroughWithLittleStack) {
@@ -137,9 +137,9 @@ TEST(JsonLimits, OfTextsFromElsewhereHold) {
         for (std::size_t i = 0; i < count; ++i) text += one + ",";
         return text + "0]";
     };
-    const auto begun = test::processor_time();
+    const auto begun = thread_processor_time();
     EXPECT_THAT(error_of([&] { graph_from_json(siblings("{\"\":0}", 400'000)); }), HasSubstr("an object was expected"));
-    EXPECT_LT(test::processor_time() - begun, test::slowdown * std::chrono::seconds(2))
+    EXPECT_LT(thread_processor_time() - begun, test::slowdown * std::chrono::seconds(2))
         << "time grows with the square of the siblings";
     EXPECT_THAT(error_of([&] { graph_from_json(siblings("0", 1'100'000)); }), HasSubstr("more than 1000000 values"));
     EXPECT_THAT(error_of([&] { graph_from_json(to_json(chain(5000))); }), HasSubstr("a graph has at most 4096 nodes"));

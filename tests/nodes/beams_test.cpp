@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "tests/support/small_media.hpp"
 #include "tests/support/small_network.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -13,20 +14,6 @@ using namespace test;
 
 Value number(double value) { return Value{value}; }
 Value word(const char* text) { return Value{std::string(text)}; }
-
-Medium fog(Rgb extinction, Rgb albedo, float g = 0) {
-    Medium medium;
-    medium.extinction.value = extinction;
-    medium.albedo.value = albedo;
-    if (g != 0) medium.phase.law = PhaseFunction::Law::henyey_greenstein, medium.phase.g = g;
-    return medium;
-}
-
-double green(const std::vector<Rgb>& picture) {
-    double sum = 0;
-    for (const Rgb& pixel : picture) sum += pixel.g;
-    return sum / double(picture.size());
-}
 
 // A lamp in the fog, seen by a camera that looks past it. So little is scattered that nothing is twice.
 TEST(PhotonBeams, OfAPointLightAreAsBrightAsOneScatteringSays) {
@@ -50,11 +37,11 @@ TEST(PhotonBeams, OfAPointLightAreAsBrightAsOneScatteringSays) {
     SmallNetwork network(std::move(data), 16, 16);
     network.add("map", "PhotonMap", {},
                 {{"paths", word("all")}, {"photons", number(1000)}, {"beams", number(30000)}, {"aim", Value{false}}});
-    EXPECT_NEAR(green(network.picture(128)), expected, 0.03 * expected);
+    EXPECT_NEAR(mean_of(network.picture(128)), expected, 0.03 * expected);
     SmallNetwork& progressive = network.add(
         "maps", "ProgressivePhotonMapping", {},
         {{"paths", word("all")}, {"photons", number(1000)}, {"beams", number(4000)}, {"radius", number(0.15)}});
-    EXPECT_NEAR(green(progressive.picture(128)), expected, 0.03 * expected);
+    EXPECT_NEAR(mean_of(progressive.picture(128)), expected, 0.03 * expected);
 }
 
 // A room full of fog, with a lamp at its ceiling: all of its light, by paths and by a map.
@@ -70,18 +57,9 @@ SceneData foggy_room(const Medium& medium) {
     return data;
 }
 
-Medium lumps(float extinction) {
-    Medium medium = fog({extinction, extinction / 2, extinction / 4}, {0.9f, 0.9f, 0.9f}, 0.3f);
-    VolumeGrid grid;
-    grid.size = {4, 4, 4};
-    for (int i = 0; i < 64; ++i) grid.values.push_back(float(i * 7 % 5) / 4);
-    medium.extinction.grid = std::make_shared<const VolumeGrid>(grid);
-    return medium;
-}
-
 TEST(PhotonBeams, BringToARoomFullOfFogWhatPathsBring) {
     for (const Medium& medium :
-         {fog({1, 1, 1}, {0.8f, 0.8f, 0.8f}, 0.5f), fog({0.5f, 1.5f, 3}, {1, 0.7f, 0.9f}), lumps(4)}) {
+         {fog({1, 1, 1}, {0.8f, 0.8f, 0.8f}, 0.5f), fog({0.5f, 1.5f, 3}, {1, 0.7f, 0.9f}), lumps(4, 0.9f)}) {
         SmallNetwork network(foggy_room(medium), 32, 32);
         network.add("direct", "DirectLighting")
             .add("bounce", "PathTracing")
@@ -112,15 +90,15 @@ TEST(PhotonBeams, OfGlassAreTheLightThatPathsFindThroughIt) {
     SmallNetwork network(std::move(data), 24, 24);
     const double exact = [&] {
         network.add("bounce", "PathTracing");
-        return green(network.picture(4096));
+        return mean_of(network.picture(4096));
     }();
     network.add("map", "PhotonMap", {},
                 {{"photons", number(10000)}, {"beams", number(200000)}, {"radius", number(0.03)}});
-    const double mapped = green(network.picture(256));
+    const double mapped = mean_of(network.picture(256));
     EXPECT_GT(exact, 0);
     EXPECT_NEAR(mapped, exact, 0.05 * exact);
     network.add("none", "PhotonMap", {}, {{"photons", number(10000)}, {"beams", number(0)}});
-    EXPECT_LT(green(network.picture(16)), 1e-3 * exact);
+    EXPECT_LT(mean_of(network.picture(16)), 1e-3 * exact);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "core/base/math/sampling.hpp"
 #include "tests/support/rig.hpp"
+#include "tests/support/small_media.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet::media_nodes_test {
@@ -12,20 +13,9 @@ namespace {
 
 using namespace test;
 
-Medium fog(Rgb extinction, Rgb albedo, float g = 0) {
-    Medium medium;
-    medium.extinction.value = extinction;
-    medium.albedo.value = albedo;
-    if (g != 0) medium.phase.law = PhaseFunction::Law::henyey_greenstein, medium.phase.g = g;
-    return medium;
-}
-
-Medium lumps(float extinction) {
-    Medium medium = fog({extinction, extinction / 2, extinction / 4}, {1, 1, 1}, 0.3f);
-    VolumeGrid grid;
-    grid.size = {4, 4, 4};
-    for (int i = 0; i < 64; ++i) grid.values.push_back(float(i * 7 % 5) / 4);
-    medium.extinction.grid = std::make_shared<const VolumeGrid>(grid);
+// Fills a cube around the origin, two metres wide.
+Medium lumps_in_the_middle(float extinction) {
+    Medium medium = lumps(extinction, 1);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         medium.extinction.to_grid.m[axis][axis] = 0.5;
         medium.extinction.to_grid.m[axis][3] = 0.5;
@@ -49,7 +39,7 @@ SceneData ball_of(const Medium& medium, AnyMaterial surface = NoMaterial{}) {
 TEST(WhiteFog, CanNotBeSeenBeforeAWhiteSky) {
     DielectricMaterial glass;
     for (const SceneData& data : {ball_of(fog({2, 2, 2}, {1, 1, 1})), ball_of(fog({0.5f, 2, 4}, {1, 1, 1}, 0.7f)),
-                                  ball_of(lumps(4)), ball_of(fog({1, 1, 1}, {1, 1, 1}), glass)}) {
+                                  ball_of(lumps_in_the_middle(4)), ball_of(fog({1, 1, 1}, {1, 1, 1}), glass)}) {
         const Scene scene(data);
         Rig rig(scene);
         const auto [mean, error] = measure(*rig.path_tracer(), 24, 32);

@@ -57,7 +57,7 @@ TEST(ObjSpectralColours, StandWhereverAColourMay) {
 TEST(ObjSpectralColours, ThatCantBeReadAreNamed) {
     const auto said = [](const std::string& line) { return warnings_of(with(line)); };
     EXPECT_THAT(said("Kd spectral none.rfl"), HasSubstr("m.mtl:2: a colour by 'spectral' is left out: there is no file "
-                                                        "'none.rfl': what has it looks as if the line were not there"));
+                                                        "'none.rfl': the picture is as without this line"));
     EXPECT_THAT(said("Kd spectral bad.rfl"), HasSubstr("'bad.rfl': a number expected, not 'x'"));
     EXPECT_THAT(said("Kd spectral"), HasSubstr("it names no file"));
     EXPECT_THAT(said("Kd spectral C:\\paint\\red.rfl"), HasSubstr("'Red.rfl' is taken"));

@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "core/base/processor_time.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/run/assembly/fingerprint.hpp"
 #include "nodes/standard_nodes.hpp"
-#include "tests/support/processor_time.hpp"
 #include "tests/support/slowdown.hpp"
 
 namespace lightnet::job_test {
@@ -127,9 +127,9 @@ TEST(ReadJob, RefusesAChainOfAHundredThousandNodes) {
 TEST(ReadJob, TakesNoTimeThatGrowsWithTheSquareOfWhatIsSent) {
     std::string text = "[";
     for (int i = 0; i < 400'000; ++i) text += "{\"\":0},";
-    const auto begun = test::processor_time();
+    const auto begun = thread_processor_time();
     EXPECT_NE(refusal(text + "0]"), "");
-    EXPECT_LT(test::processor_time() - begun, test::slowdown * std::chrono::seconds(2));
+    EXPECT_LT(thread_processor_time() - begun, test::slowdown * std::chrono::seconds(2));
     EXPECT_THAT(refusal(std::string(most_job_bytes + 1, ' ')), HasSubstr("more than 32 MiB"));
 }
 

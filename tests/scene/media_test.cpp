@@ -8,19 +8,13 @@
 #include "core/base/math/sampling.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_media.hpp"
+#include "tests/support/small_media.hpp"
 #include "tests/support/small_scenes.hpp"
 
 namespace lightnet::media_test {
 namespace {
 
 using namespace test;
-
-Medium fog(Rgb extinction, Rgb albedo) {
-    Medium medium;
-    medium.extinction.value = extinction;
-    medium.albedo.value = albedo;
-    return medium;
-}
 
 /// Fills a ball with a medium; nothing else is there.
 void fill(SceneData& data, Vec3 center, float radius, std::uint16_t inside, std::uint16_t outside) {

@@ -1,12 +1,12 @@
 #include "tools/session/run_figures.hpp"
 
-#include <time.h>
-
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <string>
 #include <utility>
 
+#include "core/base/processor_time.hpp"
 #include "core/network/graph/layout.hpp"
 
 namespace lightnet {
@@ -105,10 +105,6 @@ void add_figures(RunReport& report, const std::vector<PlaceRecord>& records) {
     for (auto& node : report.nodes) fill(node, nodes[node.name]);
 }
 
-double seconds_of_this_thread() {
-    timespec now{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+double seconds_of_this_thread() { return std::chrono::duration<double>(thread_processor_time()).count(); }
 
 }  // namespace lightnet

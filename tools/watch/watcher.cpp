@@ -1,13 +1,13 @@
 #include "tools/watch/watcher.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <thread>
 #include <utility>
 
+#include "core/base/processor_time.hpp"
 #include "tools/watch/watch_page.hpp"
 
 namespace lightnet {
@@ -21,13 +21,6 @@ constexpr auto state_period = 0.4s;
 constexpr double most_state_share = 0.005;  // of the run's thread
 constexpr std::size_t most_live_bytes = std::size_t{512} << 20;
 constexpr std::size_t most_reported_lines = 1000;
-
-// Seconds that this thread has computed: on a busy machine, waiting for a processor is nobody's cost.
-double thread_time() {
-    timespec now{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // Of a pixel that is shown.
 std::size_t colours_of(const FilmFormat& format) { return format.views().size() + LiveCleaning(format).colours(); }
@@ -139,11 +132,11 @@ void Watcher::look(const Film& film, const Hosts& hosts) {
     look(film);
     const auto now = Clock::now();
     if (!state_pace_.due(now)) return;
-    const double begun = thread_time();
+    const auto begun = thread_processor_time();  // on a busy machine, waiting for a processor is nobody's cost
     look_at_hosts(hosts(), now);
     tell();
     if (options_.report && history_.due(now)) history_.add(noted_.last_state, now);
-    state_pace_.put_off(now, std::chrono::duration<double>((thread_time() - begun) / most_state_share));
+    state_pace_.put_off(now, std::chrono::duration<double>(thread_processor_time() - begun) / most_state_share);
 }
 
 void Watcher::phase(const std::string& name) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 
 #include "core/base/math/sampling.hpp"
@@ -13,14 +12,6 @@ namespace {
 float degrees(float radians) { return radians * 180 / pi; }
 
 float part_of_1(float x) { return std::clamp(x, -1.0f, 1.0f); }
-
-/// In the luminaire's own axes.
-Vec3 turned_back(const Matrix& luminaire, Vec3 up) {
-    Vec3 own;
-    for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t i = 0; i < 3; ++i) own[j] += float(luminaire.m[i][j]) * up[i];
-    return own;
-}
 
 }  // namespace
 
@@ -36,7 +27,7 @@ float LampTilt::at(float degrees) const {
 
 float LampTilt::factor(const Matrix& luminaire, Vec3 up) const {
     if (angles.empty()) return 1;
-    const Vec3 own = turned_back(luminaire, up);
+    const Vec3 own = transform_normal(luminaire, up);  // turned back into its own axes
     if (lamp == Lamp::vertical) return at(degrees(std::acos(part_of_1(own.z))));
     if (lamp == Lamp::stays_horizontal) return at(degrees(std::asin(part_of_1(std::fabs(own.y)))));
     const float from_horizontal = degrees(std::asin(part_of_1(std::fabs(own.x))));

@@ -188,7 +188,7 @@ float LightProfile::towards(Vec3 d) const {
 }
 
 LightProfile read_light_profile(std::string_view text, const TiltFile& tilt_file) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    text = without_byte_order_mark(text);
     // since 1995 the first line names the edition, and one factor is something else: of 2019, how the file was made
     const bool newer = text.starts_with("IESNA:LM-63-") || text.starts_with("IES:LM-63-");
     ProfileText input(text);

@@ -12,4 +12,10 @@ inline std::string_view trimmed(std::string_view text, std::string_view around) 
     return text.substr(first, text.find_last_not_of(around) - first + 1);
 }
 
+/// Without the mark of UTF-8 that some editors write first.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 }  // namespace lightnet

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/readers/common/report.hpp"
+#include "core/readers/files/trimmed.hpp"
 
 namespace lightnet::obj {
 
@@ -16,10 +17,8 @@ namespace lightnet::obj {
 class Lines {
 public:
     Lines(std::span<const std::byte> bytes, std::string file)
-        : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file_(std::move(file)) {
-        constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-        if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
-    }
+        : text_(without_byte_order_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()})),
+          file_(std::move(file)) {}
 
     /// The next line that says anything; none: the end.
     bool next();

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/readers/common/spectra.hpp"
+#include "core/readers/files/trimmed.hpp"
 #include "core/readers/obj/elsewhere.hpp"
 
 namespace lightnet::obj {
@@ -16,9 +16,7 @@ namespace {
 std::vector<SpectrumPoint> curve_in(const std::string& path, Assets& assets) {
     const auto [bytes, problem] = assets.try_read(path);
     if (!bytes) throw Error(problem);
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    return read_spd(text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text);
+    return read_spd(without_byte_order_mark({reinterpret_cast<const char*>(bytes->data()), bytes->size()}));
 }
 
 }  // namespace
@@ -29,8 +27,8 @@ std::optional<Rgb> spectral_colour(Lines& line, bool shines, Assets& assets) {
     const bool has_factor = !line.left().empty();
     const auto factor = has_factor ? line.number(assets.report()) : std::nullopt;
     const auto left_out = [&](const std::string& why) {
-        assets.report().warn(where, fmt::format("a colour by 'spectral' is left out: {}: what has it looks as if the "
-                                                "line were not there",
+        assets.report().warn(where, fmt::format("a colour by 'spectral' is left out: {}: the picture is as without "
+                                                "this line",
                                                 why));
         return std::nullopt;
     };

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/readers/files/trimmed.hpp"
+
 namespace lightnet::pbrt {
 namespace {
 
@@ -48,10 +50,7 @@ std::string path_in(std::string_view raw) {
 }
 
 Tokenizer::Tokenizer(std::string file, std::string_view text, Report& report)
-    : file_(std::move(file)), text_(text), report_(report) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
-}
+    : file_(std::move(file)), text_(without_byte_order_mark(text)), report_(report) {}
 
 const std::optional<Token>& Tokenizer::peek() {
     if (!has_peeked_) peeked_ = scan();

@@ -1,13 +1,9 @@
 #include "core/run/place/own_time.hpp"
 
-#include <time.h>
+#include "core/base/processor_time.hpp"
 
 namespace lightnet {
 
-OwnTime::Nanoseconds OwnTime::now() const {
-    timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec) + slept_;
-}
+OwnTime::Nanoseconds OwnTime::now() const { return thread_processor_time() + slept_; }
 
 }  // namespace lightnet
