@@ -17,12 +17,14 @@ const std::vector<std::string> small_pictures{"--size", "96x80",      "--samples
 const std::set<std::string> left_out;
 const std::vector<std::string> threads_tried{"2", "3", "4", "8"}, tiles_tried{"64", "32", "11", "3"};
 const std::vector<std::string> daemons_tried{"1", "2", "3", "4"}, bundles_tried{"4096", "512", "61", "37", "8"};
+constexpr std::chrono::seconds narrowest_takes(600);  // 136 samples, eight questions at a time
 #else
 const std::vector<std::string> small_pictures{"--size",     "64x64", "--samples", "4",
                                               "--progress", "none",  "--cache",   "none"};
 const std::vector<std::string> threads_tried{"2", "3"}, tiles_tried{"32", "11"};
 const std::set<std::string> left_out{"linking.lua", "studio.lua"};  // studio_maps.lua has all that they have
 const std::vector<std::string> daemons_tried{"1", "2", "3"}, bundles_tried{"512", "37", "1"};
+constexpr std::chrono::seconds narrowest_takes(60);
 #endif
 
 std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
@@ -148,7 +150,8 @@ TEST_P(SameImage, WithOperatorsSpreadOverHosts) {
                               fibers = bundle == bundles_tried.back() ? "0" : "16";
             const auto far = launch(graph, folder,
                                     with(small, {"--hosts", hosts, "--bundle", bundle, "--credit", credit,
-                                                 "--spare-fibers", fibers, "--tile", "16"}));
+                                                 "--spare-fibers", fibers, "--tile", "16"}),
+                                    slowdown * narrowest_takes);
             expect_same(far, std::to_string(endpoints.size()) + " hosts, bundles of " + bundle);
             EXPECT_GT(counter(far.report, "questions"), 0) << "questions should have travelled";
             EXPECT_EQ(counter(far.report, "broken_packets"), 0);
