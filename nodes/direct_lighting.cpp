@@ -311,7 +311,7 @@ Kind direct_lighting_kind() {
                  .initial = Value{"auto"},
                  .choices = {"auto", "power", "balance", "lamps", "directions"}},
             },
-        .light = {.space = true, .lamps = true, .groups = true, .paths = always({"LD"})},
+        .light = {.space = true, .lamps = true, .groups = true, .paths = always({"L(D|V)"})},
         .reads = read_by,
         .make_light = [](const NodeContext& here) { return std::make_unique<DirectLighting>(here); },
     };

@@ -32,7 +32,7 @@ Kind emission_kind() {
         .help =
             "emitted light: what surfaces shine by themselves; for nodes that gather light, as the renderer sees it "
             "anyhow",
-        .light = {.lamps = true, .groups = true, .paths = always({"A"})},
+        .light = {.lamps = true, .groups = true, .paths = always({"O"})},
         .reads = reading(ScenePart::geometry | ScenePart::lamps),
         .make_light = [](const NodeContext& here) { return std::make_unique<SelfEmission>(here); },
     };

@@ -74,7 +74,7 @@ Kind environment_kind() {
                     .initial = Value{1.0},
                     .least = 1,
                     .most = 65536}},
-        .light = {.space = true, .lamps = true, .groups = true, .paths = always({"VD"})},
+        .light = {.space = true, .lamps = true, .groups = true, .paths = always({"B(D|V)"})},
         .reads = reading(scene_of_light),
         .make_light = [](const NodeContext& here) { return std::make_unique<SkyLight>(here); },
     };

@@ -61,7 +61,7 @@ Kind final_gather_kind() {
                     .initial = Value{1.0},
                     .least = 1,
                     .most = 65536}},
-        .light = {.space = true, .groups = true, .onward = "S*D"},
+        .light = {.space = true, .groups = true, .onward = "S*(D|V)"},
         .reads = reading(ScenePart::geometry | ScenePart::materials | ScenePart::media),
         .make_light = [](const NodeContext& here) { return std::make_unique<FinalGather>(here); },
     };

@@ -41,13 +41,13 @@ private:
     std::shared_ptr<SharedFirstRays> first_rays_;
     PathWalk paths_;
 };
-// A limit counts the surfaces between the lamp and the one asked about.
+// A limit counts the surfaces and collisions between the lamp and the one asked about.
 std::vector<std::string> paths_of(const Node& node) {
     const bool all = std::get<std::string>(node.params.at("paths").data) == "all";
     const double most = std::get<double>(node.params.at("max_depth").data);
     const std::string least = all ? "0" : "1";
-    if (most == 0) return {all ? "L(S|D)*D" : "L(S|D)+D"};
-    return {"L(S|D){" + least + "," + std::to_string(static_cast<int>(most)) + "}D"};
+    if (most == 0) return {all ? "L(S|D|V)*(D|V)" : "L(S|D|V)+(D|V)"};
+    return {"L(S|D|V){" + least + "," + std::to_string(static_cast<int>(most)) + "}(D|V)"};
 }
 
 }  // namespace

@@ -17,14 +17,17 @@
 namespace lightnet {
 namespace {
 
-/// Asks its input where a surface has the material, belongs to the object and lies in the box that are named, and
-/// answers black elsewhere; or the other way round. What isn't selected costs the input nothing.
+/// Asks its input where a point is on a surface or in a medium, as is wanted, and a surface has the material, belongs
+/// to the object and lies in the box that are named, and answers black elsewhere; or the other way round. What isn't
+/// selected costs the input nothing.
 class Select final : public LightOp {
 public:
     explicit Select(const NodeContext& here)
         : scene_(here.scene()),
           inputs_(here.inputs()),
           except_(here.flag("except")),
+          at_surfaces_(here.text("where") != "media"),
+          in_media_(here.text("where") != "surfaces"),
           boxed_(!here.numbers("box").empty()),
           named_(!here.text("material").empty() || !here.text("object").empty()) {
         const auto box = here.numbers("box");
@@ -58,6 +61,7 @@ public:
 
 private:
     bool selects(const Query& question) const {
+        if (!(question.is_in_space() ? in_media_ : at_surfaces_)) return false;
         if (question.is_in_space() ? named_ : !is_called_so(question)) return false;
         if (!boxed_) return true;
         const SurfacePoint point = scene_.surface(question);
@@ -76,7 +80,7 @@ private:
     Inputs inputs_;
     std::vector<bool> made_of_, called_;  // by shape: it has the material, the name
     std::vector<bool> of_object_;         // by instance
-    bool except_, boxed_;
+    bool except_, at_surfaces_, in_media_, boxed_;
     bool named_;  // a material or an object: media have no such name
     std::array<float, 6> box_{};
 };
@@ -116,12 +120,30 @@ void look_for(const std::string& wanted, const char* what, Names names, std::vec
     wrong.push_back(what + (" called '" + wanted + "'") + (known.empty() ? ": the scene's file names none" : text));
 }
 
+const std::string& text_of(const Node& node, const char* param) {
+    return std::get<std::string>(node.params.at(param).data);
+}
+
+bool names_places(const Node& node) {
+    return !text_of(node, "material").empty() || !text_of(node, "object").empty() ||
+           !std::get<Table>(node.params.at("box").data).list.empty();
+}
+
+bool passes_all(const Node& node) { return !names_places(node) && text_of(node, "where") == "anywhere"; }
+
+// By a last letter surfaces are told from media, and nothing else.
+PassedOn passed_by(const Node& node) {
+    const std::string& where = text_of(node, "where");
+    const bool except = std::get<bool>(node.params.at("except").data), part = names_places(node);
+    if (where == "anywhere" || (except && part)) return {"", part};
+    return {(where == "media") != except ? "V" : ends_at_surface, part};
+}
+
 std::vector<std::string> mistakes(const Node& node, const SceneData* scene) {
-    const auto& material = std::get<std::string>(node.params.at("material").data);
-    const auto& object = std::get<std::string>(node.params.at("object").data);
+    const auto& material = text_of(node, "material");
+    const auto& object = text_of(node, "object");
     const auto& box = std::get<Table>(node.params.at("box").data).list;
-    if (material.empty() && object.empty() && box.empty())
-        return {"selects nothing: give it a 'material', an 'object' or a 'box'"};
+    if (passes_all(node)) return {"selects nothing: give it a 'material', an 'object', a 'box' or a 'where'"};
     std::vector<std::string> wrong;
     for (std::size_t axis = 0; axis < 3 && !box.empty(); ++axis)
         if (std::get<double>(box[axis].data) > std::get<double>(box[axis + 3].data))
@@ -137,28 +159,31 @@ std::vector<std::string> mistakes(const Node& node, const SceneData* scene) {
 Kind select_kind() {
     return {
         .name = "Select",
-        .help = "its input on surfaces of one material, of one object, or in a box; black elsewhere",
+        .help = "its input on surfaces of one material, of one object, in a box, or in media; black elsewhere",
         .inputs = {1, 1},
-        .params = {{.name = "material",
-                    .type = ParamType::text,
-                    .help = "name that the scene's file gives to the material, * for any part of it; empty: any",
-                    .initial = Value{""}},
-                   {.name = "object",
-                    .type = ParamType::text,
-                    .help = "name of the object or shape in the scene's file, * for any part of it; empty: any",
-                    .initial = Value{""}},
-                   {.name = "box",
-                    .type = ParamType::numbers,
-                    .help = "lower x, y, z and upper x, y, z; empty: anywhere",
-                    .unit = "scene units",
-                    .initial = Value{Table{}},
-                    .count = 6},
-                   {.name = "except",
-                    .type = ParamType::flag,
-                    .help = "all other surfaces instead",
-                    .initial = Value{false}}},
+        .params =
+            {{.name = "material",
+              .type = ParamType::text,
+              .help = "name that the scene's file gives to the material, * for any part of it; empty: any",
+              .initial = Value{""}},
+             {.name = "object",
+              .type = ParamType::text,
+              .help = "name of the object or shape in the scene's file, * for any part of it; empty: any",
+              .initial = Value{""}},
+             {.name = "box",
+              .type = ParamType::numbers,
+              .help = "lower x, y, z and upper x, y, z; empty: anywhere",
+              .unit = "scene units",
+              .initial = Value{Table{}},
+              .count = 6},
+             {.name = "where",
+              .type = ParamType::text,
+              .help = "on surfaces alone, or where media scatter light",
+              .initial = Value{"anywhere"},
+              .choices = {"anywhere", "surfaces", "media"}},
+             {.name = "except", .type = ParamType::flag, .help = "all other places instead", .initial = Value{false}}},
         .mistakes = mistakes,
-        .light = {.linear = true, .partial = true, .space = true},
+        .light = {.linear = true, .partial = true, .space = true, .passed = passed_by},
         .reads = reading(scene_of_light | ScenePart::names),
         .make_light = [](const NodeContext& here) { return std::make_unique<Select>(here); },
     };

@@ -39,15 +39,15 @@ PhotonPaths photon_paths(const std::string& name) {
 std::string expression_of(PhotonPaths paths) {
     switch (paths) {
         case PhotonPaths::caustic:
-            return "LS+D";
+            return "LS+(D|V)";
         case PhotonPaths::diffuse:
-            return "L(S|D)*DS*D";
+            return "L(S|D|V)*(D|V)S*(D|V)";
         case PhotonPaths::indirect:
-            return "L(S|D)+D";
+            return "L(S|D|V)+(D|V)";
         case PhotonPaths::all:
             break;
     }
-    return "L(S|D)*D";
+    return "L(S|D|V)*(D|V)";
 }
 
 struct PhotonShooter::PhotonPath {

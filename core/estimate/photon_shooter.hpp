@@ -15,10 +15,10 @@ namespace lightnet {
 
 /// Which photons are kept, by what they met between their lamp and the surface.
 enum class PhotonPaths {
-    caustic,   // mirrors and glass, at least one of them, and nothing else: LS+D
-    diffuse,   // something rough, at least once: L(S|D)*DS*D
-    indirect,  // anything: L(S|D)+D
-    all        // anything or nothing: L(S|D)*D
+    caustic,   // mirrors and glass, at least one of them, and nothing else: LS+(D|V)
+    diffuse,   // something rough, at least once: L(S|D|V)*(D|V)S*(D|V)
+    indirect,  // anything: L(S|D|V)+(D|V)
+    all        // anything or nothing: L(S|D|V)*(D|V)
 };
 /// "caustic" and so on. Throws Error on any other word.
 PhotonPaths photon_paths(const std::string& name);

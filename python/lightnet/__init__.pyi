@@ -723,7 +723,7 @@ class Scene(Node):
     ) -> None: ...
 
 class Select(Node):
-    """its input on surfaces of one material, of one object, or in a box; black elsewhere.
+    """its input on surfaces of one material, of one object, in a box, or in media; black elsewhere.
 
     Inputs: 1 that give light.
 
@@ -733,8 +733,10 @@ class Select(Node):
         name of the object or shape in the scene's file, * for any part of it; empty: any
     box: numbers, in scene units, default []
         lower x, y, z and upper x, y, z; empty: anywhere
+    where: text, "anywhere" | "surfaces" | "media", default "anywhere"
+        on surfaces alone, or where media scatter light
     except: flag, default false
-        all other surfaces instead
+        all other places instead
     """
 
     def __init__(
@@ -743,6 +745,7 @@ class Select(Node):
         material: str | None = ...,
         object: str | None = ...,
         box: Sequence[float] | None = ...,
+        where: Literal["anywhere", "surfaces", "media"] | None = ...,
         except_: bool | None = ...,
         name: str | None = ...,
     ) -> None: ...

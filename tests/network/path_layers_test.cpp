@@ -17,8 +17,8 @@ using testing::IsEmpty;
 
 // ---- expressions ----
 
-bool has(const std::string& expression, const std::string& word, const std::string& group = "") {
-    return PathExpression(expression).of(group).contains(word);
+bool has(const std::string& expression, const std::string& word, Collisions collisions = Collisions::rough) {
+    return PathExpression(expression).of("", collisions).contains(word);
 }
 
 TEST(PathExpression, GoesFromTheEyeToTheLight) {
@@ -27,10 +27,10 @@ TEST(PathExpression, GoesFromTheEyeToTheLight) {
     EXPECT_FALSE(has("CDS+L", "LDSE")) << "a mirror's picture of something lit";
     EXPECT_TRUE(has("CSDL", "LDSE"));
     EXPECT_TRUE(has("C <.D> <L.>", "LDE"));
-    EXPECT_TRUE(has("C[DS]*O", "ASDE"));
-    EXPECT_FALSE(has("C[DS]*O", "VSDE"));
-    EXPECT_TRUE(has("C.{1,2}B", "VDDE"));
-    EXPECT_FALSE(has("C.{1,2}B", "VDDDE"));
+    EXPECT_TRUE(has("C[DS]*O", "OSDE"));
+    EXPECT_FALSE(has("C[DS]*O", "BSDE"));
+    EXPECT_TRUE(has("C.{1,2}B", "BDDE"));
+    EXPECT_FALSE(has("C.{1,2}B", "BDDDE"));
     EXPECT_TRUE(has("(CD|CS)L", "LSE"));
     EXPECT_TRUE(has("CDD?L", "LDDE"));
 }
@@ -38,11 +38,31 @@ TEST(PathExpression, GoesFromTheEyeToTheLight) {
 TEST(PathExpression, KnowsLampsByTheirGroup) {
     const PathExpression key("CD<L.'key'>|CDDO'fill'");
     EXPECT_THAT(key.groups(), ElementsAre("key", "fill"));
-    EXPECT_TRUE(key.of("key").contains("LDE"));
-    EXPECT_FALSE(key.of("key").contains("LDDE"));
-    EXPECT_TRUE(key.of("fill").contains("ADDE"));
-    EXPECT_FALSE(key.of("fill").contains("ADE"));
-    EXPECT_FALSE(key.of("rest").contains("LDE"));
+    EXPECT_TRUE(key.of("key", Collisions::rough).contains("LDE"));
+    EXPECT_FALSE(key.of("key", Collisions::rough).contains("LDDE"));
+    EXPECT_TRUE(key.of("fill", Collisions::rough).contains("ODDE"));
+    EXPECT_FALSE(key.of("fill", Collisions::rough).contains("ODE"));
+    EXPECT_FALSE(key.of("rest", Collisions::rough).contains("LDE"));
+}
+
+TEST(PathExpression, TakesACollisionForRoughUnlessOneIsNamed) {
+    EXPECT_TRUE(has("CDL", "LVE"));
+    EXPECT_TRUE(has("CDL", "LDE"));
+    EXPECT_FALSE(has("CSL", "LVE"));
+    EXPECT_FALSE(has("CDL", "LVE", Collisions::apart));
+    EXPECT_TRUE(has("CDL", "LDE", Collisions::apart));
+    EXPECT_TRUE(has("C.L", "LVE", Collisions::apart));
+    EXPECT_FALSE(PathExpression("CD.L").names_collisions());
+}
+
+TEST(PathExpression, KnowsCollisionsInMedia) {
+    for (const char* text : {"CVL", "C<V.>L", "C[VD]L", "C V{1,2} L"}) {
+        EXPECT_TRUE(PathExpression(text).names_collisions()) << text;
+        EXPECT_TRUE(has(text, "LVE", Collisions::apart)) << text;
+    }
+    EXPECT_FALSE(has("CVL", "LDE", Collisions::apart));
+    EXPECT_TRUE(has("CVDL", "LDVE", Collisions::apart)) << "light that a wall sends into the fog";
+    EXPECT_FALSE(has("CVDL", "LVDE", Collisions::apart));
 }
 
 std::string mistake_in(const std::string& expression) {
@@ -53,7 +73,7 @@ TEST(PathExpression, SaysWhatCantBeTold) {
     EXPECT_THAT(mistake_in("C<RD>L"), HasSubstr("place 3: operators do not tell reflection from transmission"));
     EXPECT_THAT(mistake_in("CGL"), HasSubstr("place 2: operators do not tell glossy from diffuse"));
     EXPECT_THAT(mistake_in("C<.G>L"), HasSubstr("glossy"));
-    EXPECT_THAT(mistake_in("CVL"), HasSubstr("media"));
+    EXPECT_THAT(mistake_in("C<V>L"), HasSubstr("place 4: a collision in a medium is written V or <V.>"));
     EXPECT_THAT(mistake_in("C[^D]L"), HasSubstr("name what is"));
     for (const char* text :
          {"C(DL", "CD)L", "C<.D", "C<L.'key>", "CD{2L", "CD{3,1}L", "CD{x}L", "CxL", "C*{", "<", "["})
@@ -141,6 +161,58 @@ TEST(PathLayers, TellLampsFromTheBackgroundWhereAnOperatorDoesNot) {
     const auto wrong = wrong_with("lamps = 'CS*DO'");
     EXPECT_THAT(wrong,
                 HasSubstr("takes LDE of 'direct', but not LDE: it does not keep lamps apart from the background"));
+}
+
+// What a fog scatters, and what surfaces do.
+const char* const in_fog = "where = 'media'";
+
+Examined examined_in_fog(const std::string& layers, const std::string& where_fog = in_fog) {
+    return examine(test::parse("scene = Scene { 'box.pbrt', fog = { density = 0.1 } }\n"
+                               "direct = DirectLighting {} lit = Select { direct, where = 'surfaces' }\n"
+                               "around = DirectLighting {} lit_fog = Select { around, " +
+                               where_fog +
+                               " }\n"
+                               "bounce = PathTracing {}\n"
+                               "light = Combine { lit, lit_fog, bounce }\n"
+                               "image = RayTracer { light, scene = scene, film = { 8, 4 }, layers = { " +
+                               layers + " } }"),
+                   nodes());
+}
+
+std::string wrong_in_fog(const std::string& layers) {
+    std::string all;
+    for (const auto& problem : examined_in_fog(layers).problems) all += problem.what + "\n";
+    return all;
+}
+
+TEST(PathLayers, KeepWhatMediaScatterApart) {
+    const auto found = examined_in_fog("once = 'CS*VL', first = 'CS*DL'");
+    for (const auto& problem : found.problems) ADD_FAILURE() << problem.what;
+    EXPECT_THAT(found.warnings, IsEmpty()) << "no light is counted twice";
+    EXPECT_THAT(found.notes, IsEmpty()) << "or left out";
+    const auto layers = layers_of(found.graph, nodes());
+    EXPECT_THAT(layers.film, ElementsAre("emission", "first", "once", "bounce"));
+    EXPECT_THAT(layers.of_colour, ElementsAre(0, 1, 2, 3));
+    const auto except = examined_in_fog("once = 'CS*VL'", "where = 'surfaces', except = true");
+    EXPECT_THAT(except.warnings, IsEmpty());
+    EXPECT_THAT(layers_of(except.graph, nodes()).film, ElementsAre("emission", "direct", "once", "bounce"));
+}
+
+TEST(PathLayers, MeanFogAsWellBySayingRoughWhereNoneNamesIt) {
+    const auto found = examined_in_fog("once = 'CS*DL'");
+    for (const auto& problem : found.problems) ADD_FAILURE() << problem.what;
+    EXPECT_THAT(layers_of(found.graph, nodes()).film, ElementsAre("emission", "once", "bounce"));
+}
+
+TEST(PathLayers, SayWhoseSurfacesAndMediaAreNotApart) {
+    EXPECT_THAT(wrong_in_fog("a = 'CS*V.+L'"), HasSubstr("of 'bounce', but not L"));
+    EXPECT_THAT(wrong_in_fog("a = 'CS*V.+L'"), HasSubstr("Select { …, where = \"media\" } keeps them apart"));
+    EXPECT_THAT(wrong_in_fog("a = 'CS*VL', b = 'CS*[DV]L'"), HasSubstr("'b': LVE of 'around' is in 'a' already"));
+    const auto twice = examined_in_fog("a = 'CS*[DV]L'", "where = 'surfaces'");
+    ASSERT_EQ(twice.warnings.size(), 1u);
+    EXPECT_THAT(twice.warnings[0].what, HasSubstr("LDE is counted by 'direct' and 'around'"));
+    ASSERT_EQ(twice.notes.size(), 1u);
+    EXPECT_THAT(twice.notes[0].what, HasSubstr("no node counts LVE"));
 }
 
 // To know whether the 31st surface before the eye scattered, an automaton must remember all 31: 2^31 states.

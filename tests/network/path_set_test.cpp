@@ -26,10 +26,31 @@ TEST(PathSet, CountsRepetitions) {
 TEST(PathSet, TakesManyRepetitionsForAny) { EXPECT_TRUE(set("LD{0,1000}").contains("L" + std::string(40, 'D'))); }
 
 TEST(PathSet, KnowsLampsFromTheEnvironment) {
-    EXPECT_TRUE(PathSet::common(set("LD"), set("VD")));
-    EXPECT_TRUE(PathSet::common(set("LD"), set("AD")));
-    EXPECT_FALSE(PathSet::common(set("AD"), set("VD")));
-    EXPECT_FALSE(PathSet::missing(set("LD"), set("AD").with(set("VD"))));
+    EXPECT_TRUE(PathSet::common(set("LD"), set("BD")));
+    EXPECT_TRUE(PathSet::common(set("LD"), set("OD")));
+    EXPECT_FALSE(PathSet::common(set("OD"), set("BD")));
+    EXPECT_FALSE(PathSet::missing(set("LD"), set("OD").with(set("BD"))));
+}
+
+TEST(PathSet, TellsMediaFromSurfaces) {
+    EXPECT_TRUE(set("L(D|V)E").contains("LVE"));
+    EXPECT_FALSE(set("L(S|D)*E").contains("LVE"));
+    EXPECT_EQ(PathSet::missing(set("L(D|V)E"), set("LDE")), "LVE");
+    EXPECT_FALSE(PathSet::missing(set("L(S|D|V)E"), set("L.E")));
+    EXPECT_FALSE(PathSet::missing(set("L.E"), set("L(S|D|V)E")));
+}
+
+TEST(PathSet, IsRestrictedToWordsThatEndInSomeLetters) {
+    const PathSet some = set("L(S|D|V)+(D|V)|B");
+    for (const char* path : {"LSV", "LDV", "LVVV"}) EXPECT_TRUE(some.ending_in("V").contains(path)) << path;
+    for (const char* path : {"LSD", "LVD", "B", "LV", ""}) EXPECT_FALSE(some.ending_in("V").contains(path)) << path;
+    EXPECT_TRUE(some.ending_in("OBSD").contains("LVD"));
+    EXPECT_TRUE(some.ending_in("OBSD").contains("B"));
+    EXPECT_FALSE(some.ending_in("OBSD").contains("LDV"));
+    EXPECT_TRUE(set("LD(S*)").ending_in("D").contains("LD")) << "nothing has to follow";
+    EXPECT_FALSE(set("LDS*").ending_in("D").contains("LDS"));
+    EXPECT_TRUE(PathSet().ending_in("D").empty());
+    EXPECT_TRUE(set("LD").ending_in("V").empty());
 }
 
 TEST(PathSet, FindsAShortestWordThatTwoHave) {

@@ -35,7 +35,7 @@ NamedSurface named_point(const Scene& scene, const Query& question) {
     NamedSurface named;
     named.position = question.place_in_space();
     named.shape = has_name ? printable(medium->name) : fmt::format("medium {}", question.medium);
-    named.material = "a collision in a medium";
+    named.material = "V, a collision in a medium";
     return named;
 }
 

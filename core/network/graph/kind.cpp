@@ -227,6 +227,13 @@ std::function<std::vector<std::string>(const Node&)> always(std::vector<std::str
     return [paths = std::move(paths)](const Node&) { return paths; };
 }
 
+PassedOn passed_on(const Kind& kind, const Node& node) {
+    PassedOn passed{{}, kind.light.partial};
+    if (kind.light.passed) passed = kind.light.passed(node);
+    if (!kind.light.space && passed.ends.empty()) passed.ends = ends_at_surface;
+    return passed;
+}
+
 Registry::Registry(std::vector<Kind> kinds) {
     kinds.push_back(scene_kind());
     add(std::move(kinds));

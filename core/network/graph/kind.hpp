@@ -68,6 +68,12 @@ struct InputCount {
     friend bool operator==(const InputCount&, const InputCount&) = default;
 };
 
+/// What a linear node passes on of its inputs' light.
+struct PassedOn {
+    std::string ends = {};  // last letters of these paths: "V", where it asks about media alone; empty: any
+    bool part = false;      // of that again a part, on purpose
+};
+
 /// What nodes of a kind do with light.
 struct LightTraits {
     bool linear = false;   // answers with a weighted sum of its inputs: layers pass through
@@ -84,6 +90,9 @@ struct LightTraits {
     bool groups = false;  // can keep groups of lamps apart: has a parameter `groups`. Its scene says how many there are
                           // (Scene::groups(), 1 where nobody asks), and so many colours does it answer with
     bool converts = false;  // gives the light of the node whose frozen state it takes, in another representation
+    /// Of a linear kind: what a node passes on, where that depends on its parameters; none: all of it, or a part
+    /// (`partial`).
+    std::function<PassedOn(const Node&)> passed = {};
     /// Which light paths a node (defaults filled in) counts by itself, as sets for PathSet::parse(): from the light to
     /// the point asked about, whose own scattering is the last letter. An empty list: what it answers is no light.
     std::function<std::vector<std::string>(const Node&)> paths = {};
@@ -91,6 +100,9 @@ struct LightTraits {
     /// on as it is.
     std::optional<std::string> onward = {};
 };
+
+/// Last letters of the paths by which a surface sends light on, for PassedOn::ends; a medium's: "V".
+inline constexpr const char* ends_at_surface = "OBSD";
 
 /// Paths that all nodes of a kind count alike; none: what they answer is no light.
 std::function<std::vector<std::string>(const Node&)> always(std::vector<std::string> paths);
@@ -136,6 +148,9 @@ struct Kind {
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};
 };
+
+/// What a node passes on of its inputs' light. Who does not answer about points in media passes on nothing there.
+PassedOn passed_on(const Kind& kind, const Node& node);
 
 /// What a node of the kind may read of the scene.
 SceneParts reads_of(const Kind& kind, const Node& node);

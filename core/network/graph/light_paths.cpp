@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/in_quotes.hpp"
+#include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/lamp_groups.hpp"
 #include "core/network/graph/plan.hpp"
 
@@ -93,15 +94,22 @@ private:
         const Node& node = graph_.nodes[index];
         const Kind& kind = kind_of(index);
         const PathSet onward = PathSet::parse(kind.light.onward.value_or(""));
+        const PassedOn passed = asks_where_it_is(kind) ? passed_on(kind, node) : PassedOn{};
         const auto& inputs = edges_.inputs[index];
         for (std::size_t i = 0; i < inputs.size(); ++i)
             for (Share share : of_[inputs[i]]) {
+                if (!passed.ends.empty()) share.paths = share.paths.ending_in(passed.ends);
                 share.paths = share.paths.then(onward);
-                share.part = share.part || kind.light.partial || weighted(node, kind, i);
+                share.part = share.part || passed.part || weighted(node, kind, i);
                 if (kind.light.onward && !kind.light.onward->empty() && kind.role == Role::light)
                     share.who = in_quotes(node.name) + " of " + share.who;
                 shares.add(std::move(share));
             }
+    }
+
+    // Who gathers asks about other points than its own.
+    static bool asks_where_it_is(const Kind& kind) {
+        return kind.role == Role::light && kind.light.onward.value_or("").empty();
     }
 
     // Has the input a weight of its own?
@@ -121,6 +129,33 @@ private:
     const std::vector<std::string> groups_;
     const Edges edges_;
     std::vector<Shares> of_;
+};
+
+/// Last letters of the paths that may reach the image from each node by linear ones.
+class Ends {
+public:
+    Ends(const Graph& graph, const Registry& registry, std::size_t image) : of_(graph.nodes.size()) {
+        const Edges edges = edges_of(graph);
+        const auto order = leaves_first(edges);
+        of_[image] = any;
+        for (auto node = order.rbegin(); node != order.rend(); ++node) {
+            const Kind& kind = *registry.find(graph.nodes[*node].kind);
+            if (of_[*node].empty() || (*node != image && !kind.light.linear)) continue;
+            const auto passed = *node == image ? PassedOn{} : passed_on(kind, graph.nodes[*node]);
+            for (const auto input : edges.inputs[*node])
+                for (const char letter : of_[*node])
+                    if (passed.ends.empty() || passed.ends.find(letter) != passed.ends.npos) add(letter, of_[input]);
+        }
+    }
+    PathSet of(const PathSet& paths, std::size_t node) const { return paths.ending_in(of_[node]); }
+
+private:
+    static void add(char letter, std::string& to) {
+        if (to.find(letter) == to.npos) to += letter;
+    }
+
+    static constexpr const char* any = "OBSDV";
+    std::vector<std::string> of_;  // by node
 };
 
 // Those that there are: one for all lamps, where nobody has sorted them.
@@ -175,6 +210,7 @@ PathReport report_paths(const Graph& graph, const Registry& registry) {
     const Node& renderer = graph.nodes[image];
     PathReport report;
     const auto groups = lamp_groups(graph, registry);
+    const bool foggy = scene_of(graph, registry).params.contains("fog");  // media of files nobody has read yet
     find_doubles(graph, renderer, groups, shares, report.doubles);
     bool known = true, light = false;
     for (const Share& share : shares) {
@@ -188,7 +224,8 @@ PathReport report_paths(const Graph& graph, const Registry& registry) {
         PathSet all;
         for (const Share& share : shares)
             if (share.lamps >> g & 1) all = all.with(share.paths);
-        if (const auto path = PathSet::missing(PathSet::parse("L(S|D)*E"), all)) missing[*path] |= GroupSet{1} << g;
+        if (const auto path = PathSet::missing(PathSet::parse(foggy ? "L(S|D|V)*E" : "L(S|D)*E"), all))
+            missing[*path] |= GroupSet{1} << g;
     }
     for (const auto& [path, lamps] : missing)
         report.missing.push_back({renderer.where, renderer.kind + " " + in_quotes(renderer.name) + ": no node counts " +
@@ -201,6 +238,7 @@ std::vector<ArrivingPaths> paths_at_image(const Graph& graph, const Registry& re
     const std::size_t image = renderer_of(graph, registry), groups = lamp_groups(graph, registry).size();
     Book book(graph, registry);
     book.of(image);
+    const Ends ends(graph, registry, image);
     const PathSet onward = PathSet::parse(registry.find(graph.nodes[image].kind)->light.onward.value_or(""));
     std::vector<ArrivingPaths> all;
     for (const auto node : nodes) {
@@ -211,8 +249,8 @@ std::vector<ArrivingPaths> paths_at_image(const Graph& graph, const Registry& re
             arriving.known = arriving.known && share.known;
             for (std::size_t g = 0; g < arriving.by_group.size(); ++g)
                 if (share.lamps >> g & 1)
-                    arriving.by_group[g] =
-                        arriving.by_group[g].with(node == image ? share.paths : share.paths.then(onward));
+                    arriving.by_group[g] = arriving.by_group[g].with(
+                        node == image ? share.paths : ends.of(share.paths, node).then(onward));
         }
     }
     return all;

@@ -32,7 +32,7 @@ struct ArrivingPaths {
 std::vector<ArrivingPaths> paths_at_image(const Graph& graph, const Registry& registry,
                                           const std::vector<std::size_t>& nodes);
 
-/// The paths that a node states, for display: "LD", "… D" (the inputs' paths, continued), or "" if its kind states
+/// The paths that a node states, for display: "L(D|V)", "… D" (the inputs' paths, continued), or "" if its kind states
 /// none. `node` has its defaults.
 std::string paths_text(const Node& node, const Kind& kind);
 

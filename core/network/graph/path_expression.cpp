@@ -28,7 +28,8 @@ struct ScopedActivity {
 /// Recursive descent, which puts the last thing of each sequence first. Lights of other groups are no paths.
 class PathExpression::Parser {
 public:
-    Parser(std::string_view text, const std::string& group) : text_(text), group_(group) {}
+    Parser(std::string_view text, const std::string& group, Collisions collisions)
+        : text_(text), group_(group), collisions_(collisions) {}
 
     std::string whole() {
         if (text_.size() > most_length) fail("it is too long");
@@ -123,8 +124,9 @@ private:
     }
 
     ScopedActivity scattering(char how) {
-        if (how == '.') return {"(S|D)", 2};
-        if (how != 'D' && how != 'S') {
+        if (how == '.') return {".", 2};
+        if (how == 'D' && collisions_ == Collisions::rough) return {"(D|V)", 2};
+        if (how != 'D' && how != 'S' && how != 'V') {
             if (how) --at_;
             refuse(how);
         }
@@ -141,13 +143,16 @@ private:
         return {"(" + all.text + ")", all.letters};
     }
 
-    // <.D>, <L.'key'>: what happens, how, and a label.
+    // <.D>, <V.>, <L.'key'>: what happens, how, and a label.
     ScopedActivity event() {
         const char what = letter();
         ScopedActivity turned;
         if (what == 'L' || what == 'O' || what == 'B') {
             if (!take('.')) fail("a light is written <L.> or <L.'group'>");
             turned = {light(what), 1};
+        } else if (what == 'V') {
+            if (!take('.')) fail("a collision in a medium is written V or <V.>");
+            turned = scattering(what);
         } else {
             if (what != '.') {
                 if (what) --at_;
@@ -160,7 +165,7 @@ private:
     }
 
     std::string light(char which) {
-        const std::string turned(1, which == 'O' ? 'A' : which == 'B' ? 'V' : 'L');
+        const std::string turned(1, which);
         if (!take('\'')) return turned;
         const auto end = text_.find('\'', at_);
         if (end == text_.npos) fail("a ' is missing");
@@ -173,13 +178,13 @@ private:
     [[noreturn]] void refuse(char c) const {
         if (c == 'R' || c == 'T') fail("operators do not tell reflection from transmission: write <.D> or <.S>");
         if (c == 'G') fail("operators do not tell glossy from diffuse, D is both: anything rougher than a mirror");
-        if (c == 'V') fail("there are no media that scatter");
         if (!c) fail("something is missing");
-        fail("unknown here: C, then D, S or ., then L, O or B");
+        fail("unknown here: C, then D, S, V or ., then L, O or B");
     }
 
     std::string_view text_;
     const std::string& group_;
+    Collisions collisions_;
     std::vector<std::string> groups_;
     std::size_t at_ = 0;
     int nesting_ = 0;
@@ -187,11 +192,13 @@ private:
 
 PathExpression::PathExpression(std::string text) : text_(std::move(text)) {
     const std::string none;
-    Parser parser(text_, none);
-    parser.whole();
+    Parser parser(text_, none, Collisions::apart);
+    names_collisions_ = parser.whole().find('V') != std::string::npos;
     groups_ = parser.groups();
 }
 
-PathSet PathExpression::of(const std::string& group) const { return PathSet::parse(Parser(text_, group).whole()); }
+PathSet PathExpression::of(const std::string& group, Collisions collisions) const {
+    return PathSet::parse(Parser(text_, group, collisions).whole());
+}
 
 }  // namespace lightnet

@@ -17,6 +17,7 @@ namespace {
 /// What one name of the parameter stands for.
 struct NamedPaths {
     std::string name;
+    std::vector<PathExpression> any;  // of these
     std::vector<PathSet> by_group;
     bool sorts = false;  // it names groups of lamps itself
     bool found = false;  // somebody has such light, or why not has been said
@@ -67,10 +68,11 @@ private:
                 complain(name, why);
                 continue;
             }
-            NamedPaths layer{name, std::vector<PathSet>(std::max<std::size_t>(1, groups_.size())), false, false};
+            NamedPaths layer{name, {}, {}, false, false};
             for (const auto& text : names_in(value)) {
                 try {
-                    add(PathExpression(text), layer);
+                    layer.any.emplace_back(text);
+                    look_for_groups(layer);
                 } catch (const Error& error) {
                     complain(name, error.what());
                     layer.found = true;
@@ -78,6 +80,23 @@ private:
             }
             named_.push_back(std::move(layer));
         }
+        for (auto& layer : named_) find_paths(layer);
+    }
+
+    // Where one layer is light that media scatter, others mean surfaces when they say D.
+    Collisions collisions() const {
+        for (const auto& layer : named_)
+            for (const auto& expression : layer.any)
+                if (expression.names_collisions()) return Collisions::apart;
+        return Collisions::rough;
+    }
+
+    void find_paths(NamedPaths& layer) const {
+        layer.by_group.resize(std::max<std::size_t>(1, groups_.size()));
+        for (const auto& expression : layer.any)
+            for (std::size_t g = 0; g < layer.by_group.size(); ++g)
+                layer.by_group[g] =
+                    layer.by_group[g].with(expression.of(groups_.empty() ? "" : groups_[g], collisions()));
     }
 
     std::string why_no_name(const std::string& name) const {
@@ -87,15 +106,13 @@ private:
         return "";
     }
 
-    void add(const PathExpression& expression, NamedPaths& layer) {
-        for (const auto& group : expression.groups()) {
+    void look_for_groups(NamedPaths& layer) {
+        for (const auto& group : layer.any.back().groups()) {
             layer.sorts = true;
             if (std::find(groups_.begin(), groups_.end(), group) != groups_.end()) continue;
             complain(layer.name, "the scene has no group " + in_quotes(group) + suggest(group, groups_));
             layer.found = true;
         }
-        for (std::size_t g = 0; g < layer.by_group.size(); ++g)
-            layer.by_group[g] = layer.by_group[g].with(expression.of(groups_.empty() ? "" : groups_[g]));
     }
 
     Overlap overlap(std::size_t colour, const NamedPaths& layer) {
@@ -147,7 +164,15 @@ private:
     static std::string why_not_apart(const std::string& has, const std::string& lacks, const NamedPaths& layer) {
         if (has == lacks && layer.sorts) return "it does not keep groups of lamps apart: write groups = true there";
         if (has == lacks) return "it does not keep lamps apart from the background. A group of lamps can hold that";
+        if (shows_medium(has) != shows_medium(lacks))
+            return "no operator keeps these apart. Select { …, where = \"media\" } keeps them apart";
         return "no operator keeps these apart. Write S* behind C where what mirrors and glass show is meant as well";
+    }
+
+    // Behind mirrors and glass, which are shown in the layer of what is seen there.
+    static bool shows_medium(const std::string& path) {
+        const auto seen = path.find_last_not_of("SE");
+        return seen != path.npos && path[seen] == 'V';
     }
 
     std::string name_for(std::size_t colour, const NamedPaths& layer) {

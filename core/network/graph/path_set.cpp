@@ -10,7 +10,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::string_view letters = "AVDSE";
+constexpr std::string_view letters = "OBDSVE";
 // Paths that are told apart by more than so many repetitions are taken for any number of them: nobody needs an example
 // that long, and automata stay small.
 constexpr std::uint32_t most_repetitions = 16;
@@ -18,7 +18,7 @@ constexpr std::uint32_t most_repetitions = 16;
 // The letters of a word as a reader expects them.
 std::string shown(std::string word) {
     for (char& letter : word)
-        if (letter == 'A' || letter == 'V') letter = 'L';
+        if (letter == 'O' || letter == 'B') letter = 'L';
     return word;
 }
 
@@ -39,12 +39,9 @@ public:
         PathSet set;
         set.begin_ = set.add_state();
         set.end_ = letter ? set.add_state() : set.begin_;
-        if (letter == 'L') {
-            set.connect(set.begin_, set.end_, 'A');
-            set.connect(set.begin_, set.end_, 'V');
-        } else if (letter) {
-            set.connect(set.begin_, set.end_, letter);
-        }
+        if (!letter) return set;
+        const std::string any = letter == 'L' ? "OB" : letter == '.' ? "SDV" : std::string(1, letter);
+        for (const char each : any) set.connect(set.begin_, set.end_, each);
         return set;
     }
 
@@ -126,7 +123,8 @@ private:
             if (!take(')')) fail();
             return set;
         }
-        if (at_ == text_.size() || (text_[at_] != 'L' && letters.find(text_[at_]) == letters.npos)) fail();
+        if (at_ == text_.size() || (text_[at_] != 'L' && text_[at_] != '.' && letters.find(text_[at_]) == letters.npos))
+            fail();
         return word(text_[at_++]);
     }
 
@@ -163,6 +161,22 @@ PathSet PathSet::with(const PathSet& other) const {
     all.connect(all.end_, end);
     all.connect(last, end);
     all.begin_ = begin;
+    all.end_ = end;
+    return all;
+}
+
+// A last letter leads to a new end from where the old one could be reached without reading another.
+PathSet PathSet::ending_in(std::string_view last) const {
+    if (!states_) return {};
+    PathSet all = *this;
+    const State end = all.add_state();
+    for (const auto& [from, to, letter] : edges_) {
+        if (!letter || last.find(letter) == last.npos) continue;
+        States reached(states_);
+        reached[to] = true;
+        close(reached);
+        if (accepts(reached)) all.connect(from, end, letter);
+    }
     all.end_ = end;
     return all;
 }

@@ -11,21 +11,25 @@
 
 namespace lightnet {
 
-/// A set of light paths, each a word from the light to the eye: L (light), then S (scattered by a mirror or by glass)
-/// and D (scattered by anything rougher), then E (the eye). Heckbert 1990, "Adaptive radiosity textures for
-/// bidirectional ray tracing". A value: a finite automaton.
+/// A set of light paths, each a word from the light to the eye: L (light), then S (scattered by a mirror or by glass),
+/// D (scattered by a surface that is rougher) and V (scattered by a medium), then E (the eye). Heckbert 1990, "Adaptive
+/// radiosity textures for bidirectional ray tracing". A value: a finite automaton.
 class PathSet {
 public:
     /// The empty set.
     PathSet() = default;
-    /// Reads letters, `(…)`, `|`, `*`, `+`, `?`, `{n}`, `{least,most}`. L stands for A (a lamp) or V (the environment),
-    /// which may be named by themselves. The empty text is the word without letters. Throws Error on anything else.
+    /// Reads letters, `(…)`, `|`, `*`, `+`, `?`, `{n}`, `{least,most}`. L stands for O (a lamp) or B (the background),
+    /// and
+    /// `.` for S, D or V, which may be named by themselves. The empty text is the word without letters. Throws Error on
+    /// anything else.
     static PathSet parse(std::string_view expression);
 
     /// Every word of this set, continued by every word of `next`.
     PathSet then(const PathSet& next) const;
     /// What is in either set.
     PathSet with(const PathSet& other) const;
+    /// Words of this set whose last letter is one of these.
+    PathSet ending_in(std::string_view last) const;
 
     /// A shortest word that both sets have; none: they have none in common. `left`, where sets come from strangers: how
     /// many steps may still be taken, which are taken off; throws Error when there are none.
