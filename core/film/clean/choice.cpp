@@ -80,24 +80,24 @@ private:
 
     // The mean over what is in the picture. Nearer to the area's edge than `radius` it is over less.
     Plane smoothed_inside(const Plane& plane, std::uint32_t radius) const {
-        const auto at = [&](std::int64_t from, std::int64_t end, std::int64_t i) {
-            return std::pair{std::max({std::int64_t{0}, i - radius, from}),
-                             std::min({std::int64_t{area_side} - 1, i + radius, end - 1})};
+        const auto inside = [](std::int64_t first, std::int64_t end) {
+            return Inside{std::max<std::int64_t>(0, first), std::min<std::int64_t>(area_side, end)};
         };
+        const Inside columns = inside(-area_.x, guide_.width - area_.x),
+                     rows = inside(-area_.y, guide_.height - area_.y);
         Plane across(plane.size()), both(plane.size());
-        for (std::int64_t y = 0; y < area_side; ++y)
-            for (std::int64_t x = 0; x < area_side; ++x) {
-                const auto [first, last] = at(-area_.x, guide_.width - area_.x, x);
-                float sum = 0;
-                for (auto k = first; k <= last; ++k) sum += plane[std::size_t(y * area_side + k)];
-                across[std::size_t(y * area_side + x)] = last < first ? 0 : sum / float(last - first + 1);
-            }
+        for (std::int64_t y = rows.first; y < rows.end; ++y) {
+            float* const sums = across.data() + y * area_side;
+            add_across(plane.data() + y * area_side, columns, radius, area_side, sums);
+            for (std::int64_t x = 0; x < area_side; ++x)
+                sums[x] /= static_cast<float>(std::max<std::int64_t>(1, columns.count(x, radius)));
+        }
         for (std::int64_t y = 0; y < area_side; ++y) {
-            const auto [first, last] = at(-area_.y, guide_.height - area_.y, y);
+            const auto first = std::max(rows.first, y - radius), end = std::min(rows.end, y + radius + 1);
             float* const sums = both.data() + y * area_side;
-            for (auto k = first; k <= last; ++k)
+            for (auto k = first; k < end; ++k)
                 for (std::size_t x = 0; x < area_side; ++x) sums[x] += across[std::size_t(k) * area_side + x];
-            for (std::size_t x = 0; x < area_side && first <= last; ++x) sums[x] /= float(last - first + 1);
+            for (std::size_t x = 0; x < area_side && first < end; ++x) sums[x] /= float(end - first);
         }
         return both;
     }

@@ -84,7 +84,7 @@ std::vector<std::string> lacks_of(const Picture& noisy, const Guide& guide) {
 }
 
 // So many areas that all cores are busy, and few enough for what is clean of them to be held beside the picture.
-constexpr std::size_t areas_at_once = 30;
+constexpr std::size_t areas_at_once = 16;
 
 void put_into(Picture& picture, std::vector<cleaning::SquaredError>& expected, const CleanArea& area) {
     for (std::size_t y = 0; y < area.height; ++y) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
 
@@ -29,10 +28,18 @@ struct InHalves {
 };
 
 // Calls value(pixel) for each, and brings it to a sheet.
-Sheet sheet_of(std::uint32_t width, std::uint32_t height, const std::function<float(std::size_t)>& value) {
+template <class Value>
+Sheet sheet_of(std::uint32_t width, std::uint32_t height, const Value& value) {
     Sheet sheet(width, height);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) *sheet.at(x, y) = value(std::size_t{y} * width + x);
+    parallel_for(
+        height,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t y = first; y < last; ++y) {
+                float* const row = sheet.at(0, static_cast<std::int64_t>(y));
+                for (std::size_t x = 0; x < width; ++x) row[x] = value(y * width + x);
+            }
+        },
+        rows_at_once);
     sheet.extend(width, height);
     return sheet;
 }

@@ -25,20 +25,26 @@ void Sheet::extend(std::uint32_t width, std::uint32_t height) {
             std::copy_n(y < margin ? first : last, stride_, values_.data() + y * stride_);
 }
 
+void add_across(const float* row, Inside inside, std::int64_t radius, std::int64_t width, float* sums) {
+    for (std::int64_t off = -radius; off <= radius; ++off) {
+        const std::int64_t end = std::min(width, inside.end - off);
+        for (std::int64_t x = std::max<std::int64_t>(0, inside.first - off); x < end; ++x) sums[x] += row[x + off];
+    }
+}
+
 Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, std::uint32_t radius) {
     Sheet across(width, height), both(width, height);
     const auto r = static_cast<std::int64_t>(radius), w = std::int64_t{width}, h = std::int64_t{height};
+    const Inside inside{0, w};
     // Each sum is made anew in the same order, so that a pixel knows nothing of where its row began.
     parallel_for(
         height,
         [&](std::size_t first, std::size_t last) {
-            for (auto y = static_cast<std::int64_t>(first); y < static_cast<std::int64_t>(last); ++y)
-                for (std::int64_t x = 0; x < w; ++x) {
-                    const std::int64_t from = std::max<std::int64_t>(0, x - r), to = std::min(w - 1, x + r);
-                    float sum = 0;
-                    for (std::int64_t k = from; k <= to; ++k) sum += *sheet.at(k, y);
-                    *across.at(x, y) = sum / static_cast<float>(to - from + 1);
-                }
+            for (auto y = static_cast<std::int64_t>(first); y < static_cast<std::int64_t>(last); ++y) {
+                float* const sums = across.at(0, y);
+                add_across(sheet.at(0, y), inside, r, w, sums);
+                for (std::int64_t x = 0; x < w; ++x) sums[x] /= static_cast<float>(inside.count(x, r));
+            }
         },
         rows_of_piece);
     parallel_for(

@@ -1,6 +1,7 @@
 // Numbers per pixel of a picture that is being cleaned, with a margin for those who look at neighbours.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,7 @@
 namespace lightnet::cleaning {
 
 /// What is worked on at once has this many pixels along a side. The outermost of them serve the others only.
-inline constexpr std::uint32_t area_side = 160;
+inline constexpr std::uint32_t area_side = 224;
 /// So far a regression looks from its centre, and serves pixels.
 inline constexpr std::uint32_t reach = 7;
 /// Colours are compared at pixels and so far to their sides.
@@ -62,6 +63,20 @@ private:
 };
 
 using Colours = std::array<Sheet, 3>;
+
+/// Of the places of a row, those that are in the picture.
+struct Inside {
+    std::int64_t first = 0, end = 0;
+
+    /// How many of them are no further than `radius` from a place.
+    std::int64_t count(std::int64_t place, std::int64_t radius) const {
+        return std::max<std::int64_t>(0, std::min(end - 1, place + radius) - std::max(first, place - radius) + 1);
+    }
+};
+
+/// Adds to each of `width` places what those of a row have that are no further than `radius` from it, from left to
+/// right, so that a place knows nothing of where its row began.
+void add_across(const float* row, Inside inside, std::int64_t radius, std::int64_t width, float* sums);
 
 /// The mean of each pixel's neighbours up to `radius` away, of those that are in the picture.
 Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, std::uint32_t radius);
