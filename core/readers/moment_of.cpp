@@ -131,7 +131,7 @@ SceneData on_the_way(const SceneData& first, const Moment& there, double part) {
     SceneData scene = first;
     for (const auto& [i, shape] : there.shapes) {
         auto& geometry = scene.shapes[i].geometry;
-        geometry = std::visit([&](auto& one) { return on_way(std::move(one), shape, place); }, geometry);
+        geometry = std::visit([&, &to = shape](auto& one) { return on_way(std::move(one), to, place); }, geometry);
     }
     for (const auto& [i, to_world] : there.instances)
         scene.instances[i].to_world = between(scene.instances[i].to_world, to_world, part);
