@@ -200,6 +200,15 @@ TEST(Clean, FitsMorePlanesAtBest) {
     EXPECT_LT(error_of(clean(noisy, CleanQuality::best).picture, truth), error_of(clean(noisy).picture, truth));
 }
 
+TEST(Clean, FitsFewerPlanesForADraft) {
+    Picture noisy = rendered(96, 96, {{"direct", checks}}, 0.3f);
+    show(noisy, "clean_albedo", checks);
+    const Picture draft = clean(noisy, CleanQuality::draft).picture, usual = clean(noisy).picture;
+    const Picture truth = true_picture(96, 96, checks);
+    EXPECT_LT(error_of(draft, truth), error_of(noisy, truth) / 5);
+    EXPECT_GT(error_of(draft, truth), error_of(usual, truth));
+}
+
 TEST(Clean, OfPicturesWithoutHalvesTakesNoiseOutToo) {
     Picture noisy = rendered(80, 80, {{"direct", ramp}}, 0.3f);
     const Picture truth = true_picture(80, 80, ramp);

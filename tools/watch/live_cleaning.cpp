@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/base/spare_threads.hpp"
-#include "core/film/clean/clean.hpp"
 
 namespace lightnet {
 namespace {
@@ -18,10 +17,10 @@ constexpr double others = 9;  // times as long as it took, nothing is cleaned
 LiveCleaning::LiveCleaning(const FilmFormat& format)
     : colours_(format.halves() ? format.layers.size() : 0), pace_(period, Clock::now()) {}
 
-LiveCleaning::Cleaned LiveCleaning::cleaned(Picture noisy) {
+LiveCleaning::Cleaned LiveCleaning::cleaned(Picture noisy, CleanQuality quality) {
     const auto begun = Clock::now();
     try {
-        auto picture = clean(std::move(noisy)).picture;
+        auto picture = clean(std::move(noisy), quality).picture;
         return {std::move(picture), Clock::now() - begun};
     } catch (const std::bad_alloc&) {
         return {{}, Clock::now() - begun};
@@ -52,13 +51,14 @@ bool LiveCleaning::look(const Film& film) {
 
 void LiveCleaning::begin(const Film& film) {
     const auto noisy = std::make_shared<Picture>(film.picture(film.scale()));
-    at_work_ = in_background([noisy] { return cleaned(std::move(*noisy)); });
+    at_work_ = in_background([noisy] { return cleaned(std::move(*noisy), CleanQuality::draft); });
 }
 
 bool LiveCleaning::finish(const Film& film) {
     if (colours_ == 0 || film.covered() < 1) return false;
     at_work_ = {};
-    if (auto made = cleaned(film.picture(film.scale())); made.picture) cleaned_ = std::move(made.picture);
+    if (auto made = cleaned(film.picture(film.scale()), CleanQuality::usual); made.picture)
+        cleaned_ = std::move(made.picture);
     return cleaned_.has_value();
 }
 

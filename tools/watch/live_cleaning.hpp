@@ -7,14 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include "core/film/clean/clean.hpp"
 #include "core/film/film.hpp"
 #include "tools/support/pace.hpp"
 
 namespace lightnet {
 
 /// Cleans what is there of a film beside the run, as soon as all of its pixels have samples, and then again and again
-/// in a tenth of the time. For the run's thread; cleaning has threads of its own. A film without halves has nothing of
-/// this.
+/// in a tenth of the time, as a draft. For the run's thread; cleaning has threads of its own. A film without halves has
+/// nothing of this.
 class LiveCleaning {
 public:
     explicit LiveCleaning(const FilmFormat& format);
@@ -23,7 +24,7 @@ public:
     std::size_t colours() const { return colours_; }
     /// Begins to clean, if it's time. True: since the last look something was cleaned, so that all pixels are others.
     bool look(const Film& film);
-    /// Cleans a film as the last thing. False: there is nothing to be cleaned.
+    /// Cleans a film as the last thing, as `lightnet clean` does. False: there is nothing to be cleaned.
     bool finish(const Film& film);
     /// Film::so_far() of an area, and behind each pixel's colours those of its layers, cleaned; as they are, where
     /// nothing is cleaned yet.
@@ -35,7 +36,7 @@ private:
         std::optional<Picture> picture;  // none: there was no memory for it
         std::chrono::duration<double> took{};
     };
-    static Cleaned cleaned(Picture noisy);
+    static Cleaned cleaned(Picture noisy, CleanQuality quality);
     void begin(const Film& film);
 
     std::size_t colours_;

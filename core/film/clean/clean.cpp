@@ -122,6 +122,10 @@ std::vector<cleaning::SquaredError> clean_areas(Picture& picture, const Noisy& n
     return expected;
 }
 
+std::uint32_t pixels_between_centres(CleanQuality quality) {
+    return quality == CleanQuality::draft ? 8 : quality == CleanQuality::usual ? 4 : 2;
+}
+
 }  // namespace
 
 // DECISIONS: one-set-of-weights
@@ -133,7 +137,7 @@ Cleaned clean(Picture picture, CleanQuality quality) {
     noisy.overflowed = 0;
     Guide guide = cleaning::take_guide(noisy);
     const auto halves = guide.halves ? halves_of(noisy) : std::vector<const PictureLayer*>{};
-    const Noisy work{noisy, halves, std::move(guide), quality == CleanQuality::best ? 2u : 4u};
+    const Noisy work{noisy, halves, std::move(guide), pixels_between_centres(quality)};
     cleaned.lacks = lacks_of(noisy, work.guide);
     const auto expected = clean_areas(noisy, work);
     drop_what_is_used_up(noisy);

@@ -175,9 +175,9 @@ Material make_older_material(const std::string& type, Parameters& parameters, co
         if (!name.empty()) known.push_back(name);
     parameters.error(fmt::format("unknown material '{}'{}", type, did_you_mean(type, known)));
     parameters.ignore_all();
-    Material grey;
-    grey.model = DiffuseMaterial{sources.known.textures.constant(older_half), 0, std::nullopt};
-    return grey;
+    Material unknown;
+    unknown.model = DiffuseMaterial{sources.known.textures.constant(older_half), 0, std::nullopt};
+    return unknown;
 }
 
 }  // namespace lightnet::pbrt
