@@ -19,6 +19,7 @@ find_package(TIFF 4.5 REQUIRED)                            # textures in
 find_package(GIF 5 REQUIRED)                               # textures in
 pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp libwebpdemux)   # textures in
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)   # packed textures in
+pkg_check_modules(blosc REQUIRED IMPORTED_TARGET blosc)   # packed grids (core/readers/files)
 pkg_check_modules(libjpeg QUIET libjpeg)                   # its full version: decoders differ in bits
 pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)     # packed meshes (core/readers/gltf)
 find_package(meshoptimizer 0.18 REQUIRED CONFIG)           # the same, by another packer

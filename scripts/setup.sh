@@ -13,6 +13,7 @@ packages=(
     libeigen3-dev                                       # linear equations
     libdraco-dev libmeshoptimizer-dev                   # packed meshes
     libpugixml-dev zlib1g-dev                           # scenes in XML
+    libblosc-dev                                        # packed grids
     libboost-dev libboost-context-dev libzmq3-dev cppzmq-dev libmsgpack-cxx-dev libssl-dev libxxhash-dev   # fibers, HTTP, sockets, hashes
     libsodium-dev                                       # keys
     liblua5.4-dev libfmt-dev libcli11-dev nlohmann-json3-dev        # graphs, text, command lines, JSON
@@ -28,7 +29,7 @@ packages_of_tests=(
     openssh-client openssh-server python3-yaml          # hosts by ssh; what deploys farms
     libnoise-dev libgsl-dev                             # what examples wrap
     python3-nbclient python3-ipykernel                  # notebooks
-    libnanovdb-dev                                      # grids as their own library writes them
+    libnanovdb-dev libopenvdb-dev                       # grids as their own libraries write them
     slurm-client slurmctld slurmd munge                 # a queue
 )
 

@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "core/base/error.hpp"
+#include "core/readers/common/grid_file.hpp"
 #include "core/readers/common/light_profile.hpp"
 #include "core/readers/common/measurements.hpp"
-#include "core/readers/common/nanovdb_file.hpp"
 #include "core/readers/common/volume_file.hpp"
 #include "core/readers/mitsuba/curves.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
@@ -15,9 +15,9 @@
 #include "tests/support/gltf_text.hpp"
 #include "tests/support/light_profile_text.hpp"
 #include "tests/support/measured_numbers.hpp"
-#include "tests/support/nanovdb_bytes.hpp"
 #include "tests/support/packed_meshes.hpp"
 #include "tests/support/scene_text.hpp"
+#include "tests/support/vdb_bytes.hpp"
 
 namespace lightnet::fuzz {
 namespace {
@@ -236,9 +236,9 @@ std::vector<std::string> volume_seeds() {
     return {header(1, 1) + raw(0.f, 1.f, .5f, 2.f), header(3, 3) + std::string("\0\1\2\3\4\5\6\7\x8\x9\xA\xB", 12)};
 }
 
-void read_nanovdb_file(std::span<const std::byte> bytes) {
+void read_sparse_grid(std::span<const std::byte> bytes) {
     try {
-        const auto found = read_nanovdb(bytes, "density");
+        const auto found = read_grid(bytes, "density");
         if (!found) return;
         Medium medium;
         medium.extinction = {{1, 1, 1}, found->grid, found->to_grid};
@@ -249,10 +249,12 @@ void read_nanovdb_file(std::span<const std::byte> bytes) {
     }
 }
 
-std::vector<std::string> nanovdb_seeds() {
+std::vector<std::string> sparse_grid_seeds() {
     test::NanovdbPoints grid;
     grid.points = {{{0, 0, 0}, 1}, {{1, 7, 2}, 0.5f}, {{-9, 3, 130}, 2}};
-    return {test::nanovdb_file({grid}, 1), test::nanovdb_file({grid})};
+    return {test::nanovdb_file({grid}, 1),    test::nanovdb_file({grid}, 2),     test::nanovdb_file({grid}),
+            test::vdb_file({grid}, {2}),      test::vdb_file({grid}, {6, true}), test::vdb_file({grid}, {3}),
+            test::vdb_file({grid, grid}, {2})};
 }
 
 void read_measured(std::span<const std::byte> bytes) {
@@ -307,7 +309,7 @@ Target measured() { return {"measured", read_measured, measured_seeds}; }
 Target profiles() { return {"profiles", read_profile, profile_seeds}; }
 Target strands() { return {"strands", read_strands, strand_seeds}; }
 Target volumes() { return {"volumes", read_volume, volume_seeds}; }
-Target sparse_volumes() { return {"sparse_volumes", read_nanovdb_file, nanovdb_seeds}; }
+Target sparse_volumes() { return {"sparse_volumes", read_sparse_grid, sparse_grid_seeds}; }
 Target serialized() { return {"serialized", read_serialized, serialized_seeds}; }
 
 }  // namespace lightnet::fuzz

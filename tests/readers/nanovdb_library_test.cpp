@@ -3,6 +3,7 @@
 
 #if __has_include(<nanovdb/util/GridBuilder.h>)
 #define NANOVDB_USE_ZIP
+#define NANOVDB_USE_BLOSC
 #include <nanovdb/util/GridBuilder.h>
 #include <nanovdb/util/IO.h>
 #define LIGHTNET_HAS_NANOVDB
@@ -29,7 +30,7 @@ TEST(NanovdbOfTheLibrary, IsReadAsItWasMeant) {
         for (int y = 100; y < 120; ++y)
             for (int z = -5; z < 140; z += 3) writer.setValue(nanovdb::Coord(x, y, z), value(x, y, z));
     const auto handle = builder.getHandle<>(0.25, nanovdb::Vec3d(1, -2, 3), "density");
-    for (const auto codec : {nanovdb::io::Codec::NONE, nanovdb::io::Codec::ZIP}) {
+    for (const auto codec : {nanovdb::io::Codec::NONE, nanovdb::io::Codec::ZIP, nanovdb::io::Codec::BLOSC}) {
         std::stringstream stream(std::string(16 + 176 + 8, '\0'));  // it leaves room for heads before it writes them
         nanovdb::io::writeGrid(stream, handle, codec);
         const std::string bytes = stream.str();

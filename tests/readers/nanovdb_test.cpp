@@ -25,7 +25,7 @@ NanovdbPoints some_points() {
     return grid;
 }
 
-NanovdbGrid read(const std::string& bytes, const std::string& name = "density") {
+SparseGrid read(const std::string& bytes, const std::string& name = "density") {
     return read_nanovdb(std::as_bytes(std::span(bytes)), name).value();
 }
 
@@ -38,10 +38,10 @@ std::string error_of(const std::string& bytes) {
     return "";
 }
 
-float at(const NanovdbGrid& grid, Vec3 place) { return grid.grid->at(transform_point(grid.to_grid, place)).r; }
+float at(const SparseGrid& grid, Vec3 place) { return grid.grid->at(transform_point(grid.to_grid, place)).r; }
 
 TEST(Nanovdb, HasItsNumbersWhereTheFileHasThem) {
-    for (const std::uint16_t codec : {0, 1}) {
+    for (const std::uint16_t codec : {0, 1, 2}) {
         const auto points = some_points();
         const auto grid = read(nanovdb_file({points}, codec));
         for (const auto& [place, value] : points.points) {
@@ -94,13 +94,13 @@ TEST(Nanovdb, SaysWhatItIsNot) {
     };
     const std::size_t grid = 16 + 176 + std::strlen("density") + 1, root = grid + 672 + 64;
     EXPECT_EQ(error_of(good), "");
-    EXPECT_THAT(error_of(""), HasSubstr("NanoVDB file: it ends early"));
+    EXPECT_THAT(error_of(""), HasSubstr("it ends early"));
     EXPECT_THAT(error_of("PK\3\4 and more bytes"), HasSubstr("does not begin with 'NanoVDB0'"));
     EXPECT_THAT(changed([](auto& b) { std::reverse(b.begin(), b.begin() + 8); }),
                 HasSubstr("of another kind of machine"));
     EXPECT_THAT(changed([](auto& b) { b[7] = '1'; }), HasSubstr("a grid without a file's header"));
     EXPECT_THAT(changed([](auto& b) { b[11] = 3; }), HasSubstr("version 24.4 is not known (32 is)"));
-    EXPECT_THAT(changed([](auto& b) { b[16 + 168] = 2; }), HasSubstr("packed by Blosc"));
+    EXPECT_THAT(changed([](auto& b) { b[16 + 168] = 2; }), HasSubstr("it ends early"));
     EXPECT_THAT(changed([&](auto& b) { b[grid + 636] = 2; }), HasSubstr("is of type"));
     EXPECT_THAT(changed([&](auto& b) { b[grid + 632] = 1; }), HasSubstr("is not a fog volume"));
     EXPECT_THAT(changed([&](auto& b) { std::memset(&b[grid + 296 + 88], 0, 72); }), HasSubstr("transform is singular"));
@@ -112,6 +112,11 @@ TEST(Nanovdb, SaysWhatItIsNot) {
     std::string packed = nanovdb_file({some_points()}, 1);
     packed[grid + 30] = char(packed[grid + 30] + 1);
     EXPECT_NE(error_of(packed), "");
+    std::string by_blosc = nanovdb_file({some_points()}, 2);
+    by_blosc[grid + 8 + 12] = char(by_blosc[grid + 8 + 12] + 1);  // how many bytes there are, says Blosc
+    EXPECT_THAT(error_of(by_blosc), HasSubstr("Blosc has packed is broken"));
+    by_blosc[16 + 7] = 1;  // and the file: 2^56 and more
+    EXPECT_THAT(error_of(by_blosc), HasSubstr("larger than Blosc can have packed"));
 }
 
 TEST(Nanovdb, DoesNotTakeMoreThanItSaysInProportion) {

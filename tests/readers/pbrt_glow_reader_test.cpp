@@ -7,8 +7,8 @@
 #include "core/readers/pbrt/older_light.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_media.hpp"
-#include "tests/support/nanovdb_bytes.hpp"
 #include "tests/support/pbrt_text.hpp"
+#include "tests/support/vdb_bytes.hpp"
 
 namespace lightnet::test::pbrt_glow_reader_test {
 namespace {
@@ -84,6 +84,22 @@ TEST(PbrtNanovdb, ShinesByItsTemperature) {
     EXPECT_THAT(cold.warnings, IsEmpty()) << warnings_of(cold);
 }
 
+TEST(PbrtNanovdb, IsTheSameSmokeInAFileOfOpenVdb) {
+    const std::vector<NanovdbPoints> grids{cube("density", 2), cube("temperature", 400)};
+    const std::string hot = "\"float LeScale\" 3 \"float temperatureoffset\" 100 \"float temperaturescale\" 10 ";
+    const auto expected = of_file(grids, hot);
+    const auto found = read_world(smoke("\"string type\" \"nanovdb\" \"string filename\" \"s.vdb\" " + hot),
+                                  {{"s.vdb", vdb_file(grids, {6, true})}});
+    for (const auto field : {&Medium::extinction, &Medium::albedo, &Medium::emission}) {
+        const VolumeField &one = found.media.at(0).*field, &other = expected.media.at(0).*field;
+        EXPECT_EQ(one.value, other.value);
+        EXPECT_EQ(one.grid->content(), other.grid->content());
+    }
+    EXPECT_THAT(errors_of_world(smoke("\"string type\" \"nanovdb\" \"string filename\" \"s.vdb\" "),
+                                {{"s.vdb", vdb_file({cube("densitty", 1)})}}),
+                HasSubstr("'s.vdb' has no grid 'density' (did you mean 'densitty'?)"));
+}
+
 TEST(PbrtNanovdb, SaysWhatIsWrong) {
     const auto wrong = [](const std::string& parameters, const std::string& bytes) {
         return errors_of_world(smoke("\"string type\" \"nanovdb\" " + parameters), {{"s.nvdb", bytes}});
@@ -91,7 +107,7 @@ TEST(PbrtNanovdb, SaysWhatIsWrong) {
     const std::string named = "\"string filename\" \"s.nvdb\"";
     EXPECT_THAT(wrong("", ""), HasSubstr("scene.pbrt:2: MakeNamedMedium 'smoke': parameter 'filename' is missing"));
     EXPECT_THAT(wrong("\"string filename\" \"t.nvdb\"", ""), HasSubstr("can't read 't.nvdb'"));
-    EXPECT_THAT(wrong(named, "nothing of that kind"), HasSubstr("'s.nvdb': NanoVDB file: it does not begin with"));
+    EXPECT_THAT(wrong(named, "nothing of that kind"), HasSubstr("'s.nvdb': it does not begin with"));
     EXPECT_THAT(wrong(named, nanovdb_file({cube("densitty", 1)})),
                 HasSubstr("'s.nvdb' has no grid 'density' (did you mean 'densitty'?)"));
     EXPECT_THAT(warnings_of(of_file({cube("density", 1)}, "\"rgb Le\" [ 1 1 1 ]")), HasSubstr("'Le' is left out"));

@@ -1,5 +1,6 @@
 #include "tests/support/nanovdb_bytes.hpp"
 
+#include <blosc.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -102,6 +103,13 @@ std::string nanovdb_file(const std::vector<NanovdbPoints>& grids, std::uint16_t 
                      uLong(whole.size()));
             stored.resize(8 + size);
             put(stored, 0, std::uint64_t{size});
+        }
+        if (codec == 2) {
+            stored.assign(8 + whole.size() + 1024, '\0');
+            const int size = blosc_compress_ctx(9, 1, 4, whole.size(), whole.data(), stored.data() + 8,
+                                                stored.size() - 8, "lz4", 0, 1);
+            stored.resize(std::size_t(8 + size));
+            put(stored, 0, std::uint64_t(size));
         }
         const std::size_t at = head.size();
         head.resize(at + 176);

@@ -20,7 +20,7 @@ struct NanovdbPoints {
 
 /// The bytes of one grid.
 std::string nanovdb_grid(const NanovdbPoints& grid);
-/// A file of several. `codec`: 0 plain, 1 packed by zlib.
+/// A file of several. `codec`: 0 plain, 1 packed by zlib, 2 by Blosc.
 std::string nanovdb_file(const std::vector<NanovdbPoints>& grids, std::uint16_t codec = 0);
 
 }  // namespace lightnet::test

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/readers/common/nanovdb_tree.hpp"
+#include "core/readers/files/blosc.hpp"
 #include "core/readers/files/gzip.hpp"
 
 namespace lightnet {
@@ -88,12 +90,25 @@ std::string type_name(std::uint32_t type) {
     return type < names.size() ? names[type] : fmt::format("{}", type);
 }
 
+/// Pieces of one GiB, each by itself.
+std::vector<std::byte> unpacked_by_blosc(const StoredGrid& grid) {
+    constexpr std::uint64_t piece = std::uint64_t{1} << 30, least = std::uint64_t{1} << 20, most_ratio = 512;
+    if (grid.size > least + most_ratio * grid.bytes.size()) refuse("its grid is larger than Blosc can have packed");
+    const Checked packed(grid.bytes);
+    std::vector<std::byte> all(grid.size);
+    for (std::uint64_t from = 0, to = 0; to < all.size(); to += piece) {
+        const auto size = packed.get<std::uint64_t>(from);
+        unpack_blosc(packed.part(from + 8, size), std::span(all).subspan(to).first(std::min(piece, all.size() - to)));
+        from += 8 + size;
+    }
+    return all;
+}
+
 /// The bytes of a grid, in `room` if they were packed.
 std::span<const std::byte> unpacked(const StoredGrid& grid, std::vector<std::byte>& room) {
     if (grid.codec == plain) return grid.bytes;
-    if (grid.codec != zip)
-        refuse(grid.codec == blosc ? "it is packed by Blosc, which is not read: pack it by zip"
-                                   : fmt::format("it is packed by an unknown codec ({})", grid.codec));
+    if (grid.codec == blosc) return room = unpacked_by_blosc(grid);
+    if (grid.codec != zip) refuse(fmt::format("it is packed by an unknown codec ({})", grid.codec));
     const Checked packed(grid.bytes);
     return room = unzip(packed.part(8, packed.get<std::uint64_t>(0)), grid.size);
 }
@@ -117,7 +132,7 @@ std::vector<std::string> names_in_nanovdb(std::span<const std::byte> bytes) {
     return names;
 }
 
-std::optional<NanovdbGrid> read_nanovdb(std::span<const std::byte> bytes, std::string_view name) {
+std::optional<SparseGrid> read_nanovdb(std::span<const std::byte> bytes, std::string_view name) {
     for (const nanovdb::StoredGrid& stored : nanovdb::grids_of(bytes)) {
         if (stored.name != name) continue;
         std::vector<std::byte> room;

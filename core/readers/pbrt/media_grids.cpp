@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/grid_file.hpp"
 #include "core/readers/common/inverse.hpp"
-#include "core/readers/common/nanovdb_file.hpp"
 #include "core/readers/pbrt/glow.hpp"
 #include "core/readers/pbrt/media.hpp"
 #include "core/scene/textures/noise.hpp"
@@ -176,14 +176,14 @@ bool Media::nanovdb(const Matrix& to_world, Parameters& parameters, Medium& medi
     const auto to_own = inverse(to_world);
     if (!to_own) parameters.error("the transform of a medium is singular");
     if (!bytes || !to_own) return false;
-    const auto field = [&](const NanovdbGrid& grid) {
+    const auto field = [&](const SparseGrid& grid) {
         return VolumeField{{1, 1, 1}, grid.grid, grid.to_grid * *to_own};
     };
     try {
-        const auto density = read_nanovdb(**bytes, "density"), heat = read_nanovdb(**bytes, "temperature");
+        const auto density = read_grid(**bytes, "density"), heat = read_grid(**bytes, "temperature");
         if (!density) {
             parameters.error(
-                fmt::format("'{}' has no grid 'density'{}", file, did_you_mean("density", names_in_nanovdb(**bytes))));
+                fmt::format("'{}' has no grid 'density'{}", file, did_you_mean("density", names_of_grids(**bytes))));
             return false;
         }
         for (VolumeField* of : {&medium.extinction, &medium.albedo, &medium.emission}) {
