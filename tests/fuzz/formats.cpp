@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/readers/common/grid_file.hpp"
+#include "core/readers/common/iso_surface.hpp"
 #include "core/readers/common/light_profile.hpp"
 #include "core/readers/common/measurements.hpp"
 #include "core/readers/common/volume_file.hpp"
@@ -29,6 +30,10 @@ std::string text_of(std::span<const std::byte> bytes) {
 const std::string dot = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x80\x80\x81", 4);
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
+// Numbers above and below 0 at the corners of a cube.
+const std::string solid = "VOL\3" + test::raw(1, 2, 2, 2, 1) + test::raw(0.f, 0.f, 0.f, 1.f, 1.f, 1.f) +
+                          test::raw(-1.f, 1.f, 1.f, 1.f, 1.f, 2.f, 1.f, -1.f);
+
 using Use = void (*)(SceneData);
 
 void attempt(const std::string& name, const std::string& text, test::MemoryFiles files, Use use,
@@ -47,6 +52,7 @@ void read_mitsuba(std::span<const std::byte> bytes) {
                             {"p.hdr", dot},
                             {"a.ply", meshes().seeds().front()},
                             {"a.bsdf", measured().seeds().front()},
+                            {"d.vol", solid},
                             {"more.xml", "<scene><include filename='scene.xml'/><shape type='cube'/></scene>"}};
     attempt("scene.xml", text_of(bytes), std::move(files), use);
 }
@@ -72,6 +78,8 @@ std::vector<std::string> mitsuba_seeds() {
 <shape type="merge"><shape type="cube"><bsdf type="mask"><float name="opacity" value=".5"/><bsdf type="null"/></bsdf><emitter type="area"/></shape></shape>
 <medium id="m" type="heterogeneous"><volume name="density" type="constvolume"/></medium><shape type="cube"><bsdf type="null"/><ref name="interior" id="m"/></shape>
 <shape type="sphere"><bsdf type="hair"><rgb name="sigma_a" value=".1,.2,.3"/><float name="scale" value="2"/></bsdf></shape>
+<shape type="sdfgrid"><string name="filename" value="d.vol"/></shape>
+<shape type="heightfield"><texture type="checkerboard"/><integer name="width" value="3"/><integer name="height" value="2"/></shape>
 <emitter type="envmap"><string name="filename" value="p.hdr"/></emitter><emitter type="projector"><texture name="irradiance" type="bitmap">
 <string name="filename" value="p.hdr"/></texture></emitter><emitter type="spot"/><emitter type="sun"/></scene>)"};
 }
@@ -228,12 +236,27 @@ void read_volume(std::span<const std::byte> bytes) {
     }
 }
 
+void read_solid(std::span<const std::byte> bytes) {
+    try {
+        const auto grid = read_volume_file(bytes, {}, VolumeNumbers::any).grid;
+        const auto mesh = grid->channels == 1 ? iso_surface(*grid, 1 << 16) : std::nullopt;
+        if (mesh && !mesh->fault().empty()) throw std::logic_error("a surface that can't be used");
+    } catch (const Error&) {
+    }
+}
+
+void read_volume_or_solid(std::span<const std::byte> bytes) {
+    read_volume(bytes);
+    read_solid(bytes);
+}
+
 std::vector<std::string> volume_seeds() {
     using test::raw;
     const auto header = [](int type, int channels) {
         return "VOL\3" + raw(type, 2, 1, 2, channels) + raw(0.f, 0.f, 0.f, 1.f, 1.f, 1.f);
     };
-    return {header(1, 1) + raw(0.f, 1.f, .5f, 2.f), header(3, 3) + std::string("\0\1\2\3\4\5\6\7\x8\x9\xA\xB", 12)};
+    return {solid, header(1, 1) + raw(0.f, 1.f, .5f, 2.f),
+            header(3, 3) + std::string("\0\1\2\3\4\5\6\7\x8\x9\xA\xB", 12)};
 }
 
 void read_sparse_grid(std::span<const std::byte> bytes) {
@@ -308,7 +331,7 @@ Target rays_obj() { return {"rays_obj", read_obj<render>, obj_seeds, 20}; }
 Target measured() { return {"measured", read_measured, measured_seeds}; }
 Target profiles() { return {"profiles", read_profile, profile_seeds}; }
 Target strands() { return {"strands", read_strands, strand_seeds}; }
-Target volumes() { return {"volumes", read_volume, volume_seeds}; }
+Target volumes() { return {"volumes", read_volume_or_solid, volume_seeds}; }
 Target sparse_volumes() { return {"sparse_volumes", read_sparse_grid, sparse_grid_seeds}; }
 Target serialized() { return {"serialized", read_serialized, serialized_seeds}; }
 

@@ -13,6 +13,10 @@ void read(std::span<const std::byte> bytes) {
     files.add("scene.pbrt", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     files.add("part.pbrt", "Include \"scene.pbrt\"\n");
     files.add("mesh.ply", meshes().seeds().front());
+    files.add("flat.ply",
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "property float u\nproperty float v\nelement face 1\nproperty list uchar int vertex_indices\n"
+              "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
     files.add("even.bsdf", measured().seeds().front());
     files.add("lamp.ies", test::light_profile("2 1", "0 90 0 1 1"));
     files.add("picture.hdr",
@@ -83,6 +87,7 @@ MakeNamedMaterial "c" "string type" "mix" "string materials" [ "a" "b" ] "textur
 NamedMaterial "c"
 Shape "loopsubdiv" "integer levels" 2 "integer indices" [ 0 1 2  0 2 3  0 3 1  1 3 2 ] "point3 P" [ 0 0 0 1 0 0 0 1 0 0 0 1 ]
 Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 1 ] "texture alpha" "bits"
+Shape "plymesh" "string filename" "flat.ply" "texture displacement" "bits" "float edgelength" .5
 LightSource "point" "rgb I" [ 1 2 3 ] "float power" 5
 LightSource "spot" "float coneangle" 30 "point3 from" [ 0 0 1 ]
 LightSource "distant" "float illuminance" 3

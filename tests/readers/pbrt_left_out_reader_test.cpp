@@ -63,8 +63,6 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Shapes, EveryThingLeftOut,
     testing::Values(
-        LeftOut{"WorldBegin Shape \"plymesh\" \"string filename\" \"m.ply\" \"string displacement\" \"d\"",
-                "displacement is left out"},
         LeftOut{"WorldBegin Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 1 ]", "is cut into triangles"},
         LeftOut{"WorldBegin Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 0 ] \"string "
                 "emissionfilename\" \"p.hdr\"",
@@ -125,7 +123,6 @@ TEST(PbrtWarnings, AreMissingOnlyWhereNothingIsMissed) {
                                                  {"coordinatesystem", "of layers of a film"},
                                                  {"diagonal", "of realistic cameras, which are named"},
                                                  {"difftrans", "'disney' is named"},
-                                                 {"edgelength", "of displacement, which is named"},
                                                  {"faceIndices", "of ptex, which is named"},
                                                  {"filename", "where a picture goes; 'measured' is named"},
                                                  {"flatness", "'disney' is named"},

@@ -49,7 +49,7 @@ Header checked_volume_header(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-VolumeFile read_volume_file(std::span<const std::byte> bytes, VolumeGrid grid) {
+VolumeFile read_volume_file(std::span<const std::byte> bytes, VolumeGrid grid, VolumeNumbers allowed) {
     const Header header = checked_volume_header(bytes);
     for (std::size_t axis = 0; axis < 3; ++axis) grid.size[axis] = static_cast<std::uint32_t>(header.size[axis]);
     grid.channels = static_cast<std::uint32_t>(header.channels);
@@ -62,8 +62,10 @@ VolumeFile read_volume_file(std::span<const std::byte> bytes, VolumeGrid grid) {
     else
         std::transform(numbers.begin(), numbers.begin() + std::ptrdiff_t(count), grid.values.begin(),
                        [](std::byte value) { return float(value) / 255; });
-    const auto sound = [](float value) { return std::isfinite(value) && value >= 0; };
-    if (!std::all_of(grid.values.begin(), grid.values.end(), sound)) refuse("a number is negative or not finite");
+    const bool any = allowed == VolumeNumbers::any;
+    const auto sound = [&](float value) { return std::isfinite(value) && (any || value >= 0); };
+    if (!std::all_of(grid.values.begin(), grid.values.end(), sound))
+        refuse(any ? "a number is not finite" : "a number is negative or not finite");
     const auto& box = header.box;
     if (!std::all_of(box.begin(), box.end(), [](float value) { return std::isfinite(value); }))
         refuse("its box is not finite");

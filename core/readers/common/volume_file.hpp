@@ -15,7 +15,11 @@ struct VolumeFile {
     Box box;  // that the file says it fills
 };
 
+/// What numbers a file may have.
+enum class VolumeNumbers { not_negative, any };
+
 /// `grid` says how it is to be looked up. Throws Error, without a file name, where the file is not sound.
-VolumeFile read_volume_file(std::span<const std::byte> bytes, VolumeGrid grid);
+VolumeFile read_volume_file(std::span<const std::byte> bytes, VolumeGrid grid,
+                            VolumeNumbers allowed = VolumeNumbers::not_negative);
 
 }  // namespace lightnet

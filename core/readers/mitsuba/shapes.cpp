@@ -12,6 +12,7 @@
 #include "core/readers/mitsuba/attributes.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/curves.hpp"
+#include "core/readers/mitsuba/grids.hpp"
 #include "core/readers/mitsuba/primitives.hpp"
 #include "core/readers/mitsuba/serialized.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
@@ -25,25 +26,12 @@ namespace {
 
 constexpr std::uint64_t most_triangles = std::uint64_t{1} << 30;
 
-const std::vector<std::string> known_shapes{"obj",          "ply",         "serialized", "rectangle", "cube",
-                                            "disk",         "sphere",      "cylinder",   "instance",  "shapegroup",
-                                            "bsplinecurve", "linearcurve", "merge"};
+const std::vector<std::string> known_shapes{"obj",          "ply",         "serialized", "rectangle",   "cube",
+                                            "disk",         "sphere",      "cylinder",   "instance",    "shapegroup",
+                                            "bsplinecurve", "linearcurve", "merge",      "heightfield", "sdfgrid"};
 
 void turn_uvs(Mesh& mesh) {
     for (auto& uv : mesh.uvs) uv.y = 1 - uv.y;
-}
-
-/// The factor by which all lengths grow; none: it is not the same in all directions.
-std::optional<float> uniform_scale(const Matrix& t) {
-    double length[3];
-    for (std::size_t j = 0; j < 3; ++j) length[j] = std::hypot(t.m[0][j], t.m[1][j], t.m[2][j]);
-    for (std::size_t a = 0; a < 3; ++a) {
-        const std::size_t b = (a + 1) % 3;
-        const double product = t.m[0][a] * t.m[0][b] + t.m[1][a] * t.m[1][b] + t.m[2][a] * t.m[2][b];
-        if (std::fabs(length[a] - length[b]) > 1e-4 * length[0] || std::fabs(product) > 1e-4 * length[a] * length[b])
-            return std::nullopt;
-    }
-    return static_cast<float>(length[0]);
 }
 
 }  // namespace
@@ -114,6 +102,10 @@ std::optional<ShapeGeometry> Shapes::geometry(Properties& properties) {
         return stood(properties, disk, Matrix{});
     } else if (type == "cylinder") {
         return cylinder(properties);
+    } else if (type == "heightfield") {
+        mesh = height_field(properties, textures_);
+    } else if (type == "sdfgrid") {
+        mesh = sdf_grid(properties, context_);
     } else if (type == "bsplinecurve" || type == "linearcurve") {
         return curves(properties);
     } else {

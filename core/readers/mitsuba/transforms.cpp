@@ -172,4 +172,16 @@ UvTransform uv_transform(Properties& properties, bool flipped) {
     return result;
 }
 
+std::optional<float> uniform_scale(const Matrix& t) {
+    double length[3];
+    for (std::size_t j = 0; j < 3; ++j) length[j] = std::hypot(t.m[0][j], t.m[1][j], t.m[2][j]);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3;
+        const double product = t.m[0][a] * t.m[0][b] + t.m[1][a] * t.m[1][b] + t.m[2][a] * t.m[2][b];
+        if (std::fabs(length[a] - length[b]) > 1e-4 * length[0] || std::fabs(product) > 1e-4 * length[a] * length[b])
+            return std::nullopt;
+    }
+    return static_cast<float>(length[0]);
+}
+
 }  // namespace lightnet::mitsuba

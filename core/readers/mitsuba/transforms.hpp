@@ -15,4 +15,7 @@ Matrix transform_of(Properties& properties, std::string_view name = "to_world");
 /// result goes down as well. Shears are left out, with a warning.
 UvTransform uv_transform(Properties& properties, bool flipped);
 
+/// The factor by which all lengths grow; none: it is not the same in all directions.
+std::optional<float> uniform_scale(const Matrix& t);
+
 }  // namespace lightnet::mitsuba

@@ -38,6 +38,10 @@ void Builder::check_uses() {
 }
 
 void Builder::finish_shapes() {
+    std::vector<MadeShape*> displaced;
+    for (const auto& waiting : waiting_)
+        if (waiting.made->relief && waiting.made->geometry) displaced.push_back(waiting.made.get());
+    shapes_.displace(displaced, scene_.textures);
     if (shapes_.budget().exceeded())
         sources_.report.error({sources_.main, 0}, "the scene has more than 2^27 vertices and triangles");
     find_media();

@@ -111,7 +111,8 @@ void Builder::shape(Statement& s) {
     if (sources_.older() && s.parameters.find("shadowalpha"))
         s.parameters.warn("'shadowalpha' is left out: the shape throws the whole shadow of what is there");
     const Placement placement{placed, *from_world, state_.reversed};
-    shape.made = shapes_.make(s.names[0], s.parameters, placement);
+    const auto heights = s.names[0] == "plymesh" ? textures_.maybe_number(s.parameters, "displacement") : std::nullopt;
+    shape.made = shapes_.make(s.names[0], s.parameters, placement, heights);
     shape.turned = placement.flips();
     s.parameters.warn_unused();
     if (!shape.made) return;

@@ -6,20 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/readers/common/grid_mesh.hpp"
+
 namespace lightnet::pbrt {
 namespace {
 
 constexpr std::uint32_t around = 128, along = 32;  // pieces of a surface of revolution
-
-/// Two triangles for each cell of a grid of vertices, row after row.
-void add_cells(Mesh& mesh, std::uint32_t columns, std::uint32_t rows) {
-    for (std::uint32_t j = 0; j + 1 < rows; ++j)
-        for (std::uint32_t i = 0; i + 1 < columns; ++i) {
-            const std::uint32_t a = j * columns + i, c = a + columns;
-            mesh.triangles.push_back({a, a + 1, c + 1});
-            mesh.triangles.push_back({a, c + 1, c});
-        }
-}
 
 /// What a curve passes over when it turns around the z axis; `profile` from 0 to 1. As in pbrt, its normal is that of
 /// the turn times the way along the curve.
@@ -66,15 +58,7 @@ std::optional<Mesh> height_field(Parameters& parameters) {
         parameters.error(fmt::format("'Pz' needs nu × nv heights, at least 2 × 2: there are {}", given));
         return std::nullopt;
     }
-    Mesh mesh;
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i) {
-            const Vec2 at{float(i) / float(columns - 1), float(j) / float(rows - 1)};
-            mesh.positions.push_back({at.x, at.y, heights->numbers[mesh.positions.size()]});
-            mesh.uvs.push_back(at);
-        }
-    add_cells(mesh, std::uint32_t(columns), std::uint32_t(rows));
-    return mesh;
+    return mesh_of_heights(std::uint32_t(columns), std::uint32_t(rows), heights->numbers);
 }
 
 std::optional<Mesh> cone(Parameters& parameters) {

@@ -15,6 +15,7 @@
 #include "core/readers/pbrt/meshes.hpp"
 #include "core/readers/pbrt/older_shapes.hpp"
 #include "core/readers/pbrt/quadrics.hpp"
+#include "core/readers/pbrt/relief.hpp"
 #include "core/readers/pbrt/transforms.hpp"
 #include "core/readers/ply/mesh.hpp"
 #include "core/scene/shapes/placed_quadric.hpp"
@@ -103,8 +104,9 @@ const std::map<std::string, ShapeMaker>& older_shape_makers() {
     return table;
 }
 
-Geometry read_mesh(const Bytes& bytes, const Placement& placement) {
-    Mesh mesh = is_gzip(*bytes) ? read_ply(gunzip(*bytes)) : read_ply(*bytes);
+Mesh read_mesh(const Bytes& bytes) { return is_gzip(*bytes) ? read_ply(gunzip(*bytes)) : read_ply(*bytes); }
+
+Geometry placed_mesh(Mesh mesh, const Placement& placement) {
     if (const std::string problem = place(mesh, placement, placement.reversed); !problem.empty()) throw Error(problem);
     return mesh;
 }
@@ -118,7 +120,8 @@ void Budget::take(const Geometry& geometry) {
     take(least + (mesh ? mesh->triangles.size() + mesh->positions.size() : 0) + (curves ? curves->points.size() : 0));
 }
 
-std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& parameters, const Placement& placement) {
+std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& parameters, const Placement& placement,
+                                        std::optional<TextureId> heights) {
     if (budget_.exceeded()) {
         parameters.ignore_all();
         return nullptr;  // said in the end
@@ -129,7 +132,7 @@ std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& par
                              fmt::format("shapes of type '{}' are not supported and left out", type));
         return nullptr;
     }
-    if (type == "plymesh") return ply_mesh(parameters, placement);
+    if (type == "plymesh") return ply_mesh(parameters, placement, heights);
     const bool of_v3 = sources_.older() && older_shape_makers().contains(type);
     const auto& makers = of_v3 ? older_shape_makers() : shape_makers();
     const auto maker = makers.find(type);
@@ -143,13 +146,13 @@ std::shared_ptr<MadeShape> Shapes::make(const std::string& type, Parameters& par
     auto geometry = maker->second(parameters, placement);
     if (!geometry) return nullptr;
     budget_.take(*geometry);
-    return std::make_shared<MadeShape>(MadeShape{std::move(geometry), {}});
+    return std::make_shared<MadeShape>(MadeShape{std::move(geometry), {}, {}});
 }
 
-std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placement& placement) {
+std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placement& placement,
+                                            std::optional<TextureId> heights) {
     const std::string file = parameters.file("filename");
-    if (parameters.find("displacement")) parameters.warn("displacement is left out: the shape stays smooth");
-    parameters.ignore({"edgelength"});
+    const float edge = parameters.number("edgelength", 1);
     if (file.empty()) {
         parameters.error("parameter 'filename' is missing");
         return nullptr;
@@ -157,16 +160,28 @@ std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placem
     const auto bytes = sources_.read(file, parameters.where());
     if (!bytes) return nullptr;
     auto made = std::make_shared<MadeShape>();
+    if (heights) made->relief = {*heights, edge, placement};
     thread_pool_.add([this, made, file, placement, bytes = *bytes] {
         if (budget_.exceeded()) return;
         try {
-            made->geometry = read_mesh(bytes, placement);
+            made->geometry = made->relief ? read_mesh(bytes) : placed_mesh(read_mesh(bytes), placement);
             budget_.take(*made->geometry);
         } catch (const std::exception& problem) {
             made->problem = fmt::format("'{}': {}", file, problem.what());
         }
     });
     return made;
+}
+
+void Shapes::displace(const std::vector<MadeShape*>& shapes, const std::vector<Texture>& textures) {
+    for (MadeShape* made : shapes)
+        thread_pool_.add([this, made, &textures] {
+            Mesh& mesh = std::get<Mesh>(*made->geometry);
+            made->problem = raise(mesh, *made->relief, textures);
+            budget_.take(*made->geometry);
+            if (!made->problem.empty() || budget_.exceeded()) made->geometry.reset();
+        });
+    thread_pool_.finish();
 }
 
 }  // namespace lightnet::pbrt

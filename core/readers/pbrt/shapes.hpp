@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/base/math/transform.hpp"
 #include "core/base/thread_pool.hpp"
@@ -40,10 +41,18 @@ private:
     std::atomic<std::uint64_t> taken_ = 0;
 };
 
+/// How a mesh is moved along its normals, once the textures are there.
+struct Relief {
+    TextureId heights = 0;
+    float edge = 1;  // longer ones are split before, in the world
+    Placement placement{};
+};
+
 /// A shape that was asked for. Meshes in files come later: wait for the thread_pool before looking.
 struct MadeShape {
     std::optional<Geometry> geometry;
-    std::string problem;  // why there is none, as far as it isn't reported yet
+    std::optional<Relief> relief;  // of a mesh that is in its own space until then
+    std::string problem;           // why there is none, as far as it isn't reported yet
 };
 
 /// Makes the shapes of one scene.
@@ -51,12 +60,16 @@ class Shapes {
 public:
     Shapes(const Sources& sources, ThreadPool& thread_pool) : sources_(sources), thread_pool_(thread_pool) {}
 
-    /// The shape of that type, where it stands. None: reported.
-    std::shared_ptr<MadeShape> make(const std::string& type, Parameters& parameters, const Placement& placement);
+    /// The shape of that type, where it stands. None: reported. `heights`: by which a 'plymesh' is displaced.
+    std::shared_ptr<MadeShape> make(const std::string& type, Parameters& parameters, const Placement& placement,
+                                    std::optional<TextureId> heights);
+    /// Once textures and meshes are there: displaces what is to be.
+    void displace(const std::vector<MadeShape*>& shapes, const std::vector<Texture>& textures);
     Budget& budget() { return budget_; }
 
 private:
-    std::shared_ptr<MadeShape> ply_mesh(Parameters& parameters, const Placement& placement);
+    std::shared_ptr<MadeShape> ply_mesh(Parameters& parameters, const Placement& placement,
+                                        std::optional<TextureId> heights);
 
     const Sources& sources_;
     ThreadPool& thread_pool_;
