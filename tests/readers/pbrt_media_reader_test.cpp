@@ -82,6 +82,32 @@ TEST(PbrtMedia, ThatScatterFillSpace) {
     EXPECT_THAT(warnings_of(scene), HasSubstr("only bounds media, and is left out"));
 }
 
+// Of Jensen et al. 2001 and of Narasimhan et al. 2006: reduced scattering and absorption.
+TEST(PbrtMedia, GoByTheNamesOfSubstances) {
+    struct Known {
+        const char* name;
+        Rgb scattered, absorbed;
+    };
+    for (const auto& [name, scattered, absorbed] :
+         {Known{"Ketchup", {0.18f, 0.07f, 0.03f}, {0.061f, 0.97f, 1.45f}},
+          Known{"Lowfat Milk", {0.89187f, 1.5136f, 2.532f}, {0.002875f, 0.00575f, 0.0115f}},
+          Known{"Head & Shoulders Shampoo", {0.023805f, 0.028804f, 0.034306f}, {0.084621f, 0.15688f, 0.20365f}},
+          Known{
+              "Pacific Ocean Surface Water", {1.764e-4f, 3.2095e-4f, 1.9617e-4f}, {0.031845f, 0.031324f, 0.030147f}}}) {
+        const auto scene = read_text(
+            std::string(
+                "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"float scale\" 10 \"string preset\" \"") +
+            name + "\"\nMediumInterface \"\" \"m\" Camera \"perspective\"\nWorldBegin\n" + ball);
+        ASSERT_EQ(scene.media.size(), 1u) << name;
+        EXPECT_EQ(scene.media[0].albedo.value, scattered * 10) << name;
+        EXPECT_EQ(scene.media[0].extinction.value, absorbed * 10 + scattered * 10) << name;
+        EXPECT_THAT(scene.warnings, IsEmpty()) << warnings_of(scene);
+    }
+    EXPECT_THAT(warnings_of(read_world("MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" "
+                                       "\"Lowfat Mlik\"")),
+                HasSubstr("did you mean 'Lowfat Milk'?"));
+}
+
 // What only absorbs is in space where no glass holds it.
 TEST(PbrtMedia, ThatOnlyAbsorbFillSpaceWhereNoGlassHoldsThem) {
     const auto scene = with(

@@ -9,18 +9,10 @@
 
 #include "core/readers/pbrt/parameters.hpp"
 #include "core/readers/pbrt/sources.hpp"
+#include "core/readers/pbrt/substances.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::pbrt {
-
-/// What a medium does with light, per millimetre.
-struct Substance {
-    Rgb scattered, absorbed;
-};
-/// Of a substance that pbrt knows by name. None: it isn't known here, and a warning says so.
-std::optional<Substance> substance_named(const std::string& name, const Parameters& parameters);
-/// What is taken where nothing is said: whole milk.
-Substance usual_substance();
 
 /// The named media of one scene. What only absorbs is the business of the glass that it fills, unless somebody stands
 /// in it: see be_space().
