@@ -11,8 +11,8 @@ namespace lightnet::test {
 
 class Folder {
 public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "lightnet-test-XXXXXX").string();
+    explicit Folder(const std::filesystem::path& where = std::filesystem::temp_directory_path()) {
+        std::string name = (where / "lightnet-test-XXXXXX").string();
         path_ = ::mkdtemp(name.data());
     }
     Folder(const Folder&) = delete;

@@ -120,7 +120,7 @@ TEST(WatchedRun, GoesOnWithoutAHostThatIsTakenOut) {
     const test::Daemon one(folder), two(folder);
     const auto hosts = folder.write("lab.lua", "place '" + one.endpoint + "' {}\nplace '" + two.endpoint + "' {}\n");
     std::vector<std::string> words{"--samples", "64", "--size", "160x160"};
-    const auto alone = test::launch_for(10s, graph_file("cornell.lua"), words).picture;
+    const auto alone = test::launch_for(5s, graph_file("cornell.lua"), words).picture;
     words.insert(words.end(), {"--hosts", hosts});
     const WatchedRun run(folder, words);
     Visitor visitor(run.port);
