@@ -26,6 +26,7 @@
 #include "tools/daemon/led_by_input.hpp"
 #include "tools/daemon/metrics.hpp"
 #include "tools/daemon/metrics_server.hpp"
+#include "tools/daemon/supervisor.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/plugins.hpp"
 #include "tools/support/signals.hpp"
@@ -73,8 +74,33 @@ void load_all_plugins(const lightnet::DaemonOptions& options, lightnet::Registry
     lightnet::load_plugins(options.plugins, registry);
 }
 
+// Without these options and what belongs to them.
+std::vector<std::string> without(const std::vector<std::string>& names, const std::vector<std::string>& words) {
+    std::vector<std::string> left;
+    for (auto word = words.begin(); word != words.end(); ++word) {
+        const auto name = word->substr(0, word->find('='));
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            left.push_back(*word);
+        else if (name == *word && word + 1 != words.end())
+            ++word;
+    }
+    return left;
+}
+
+// `words`: as typed, and what settings say besides.
+int serve_several(const lightnet::DaemonOptions& options, const std::vector<std::string>& words,
+                  const lightnet::DaemonLog& log, lightnet::StandardOutput& output) {
+    const auto& stop = lightnet::watch_signals();
+    std::optional<lightnet::SingleInstance> only;
+    if (!options.single.empty()) only.emplace(options.single, stop.any);
+    lightnet::supervise({options.runs, options.host.listen, options.metrics,
+                         without({"--listen", "--runs", "--metrics", "--single"}, words), options.quiet},
+                        stop, log);
+    say_where_nobody_reads(output, log);
+    return lightnet::exit_code::done;
+}
+
 int serve(lightnet::DaemonOptions options, const lightnet::DaemonLog& log, lightnet::StandardOutput& output) {
-    if (options.print_key) return print_key(options);
     // OpenSSL looks for its hashes once, and has none for ever after where there was no memory for that.
     const lightnet::Hasher first_of_all;
     options.host.key = options.led ? lightnet::key_from_input() : lightnet::take_key_from_environment();
@@ -82,6 +108,10 @@ int serve(lightnet::DaemonOptions options, const lightnet::DaemonLog& log, light
     if (!options.host.key && (!options.host.allow.empty() || options.host.launcher_key))
         options.host.key = own_key(options);
     if (options.parent) live_no_longer_than(options.parent);
+    if (options.supervisor) {
+        live_no_longer_than(options.supervisor);
+        setpgid(0, 0);  // Ctrl-C is for the one that all of them look like
+    }
     if (options.parent || options.led) options.metrics.clear();  // of the one daemon that the environment may be for
     if (!options.quiet && !options.parent) options.host.log = log;
     const auto& stop = lightnet::watch_signals();
@@ -139,7 +169,7 @@ int perform(std::vector<std::string> typed, lightnet::DaemonLog& log, lightnet::
     }
     // One that a launcher starts does what that says.
     const bool has_parent = std::find(typed.begin(), typed.end(), "--parent") != typed.end();
-    if (has_parent) settings.lines.clear();
+    if (has_parent || std::find(typed.begin(), typed.end(), "--supervisor") != typed.end()) settings.lines.clear();
     const auto more = settings.missing(text, typed);
     typed.insert(typed.begin(), more.begin(), more.end());
     if (has_parent) typed.insert(typed.end(), {"--log-format", "text"});  // which it waits for
@@ -153,7 +183,8 @@ int perform(std::vector<std::string> typed, lightnet::DaemonLog& log, lightnet::
     }
     const auto& options = std::get<lightnet::DaemonOptions>(parsed);
     if (!options.host.name.empty()) log = lightnet::DaemonLog(options.log_json, options.host.name);
-    return serve(options, log, output);
+    if (options.print_key) return print_key(options);
+    return options.runs > 1 ? serve_several(options, typed, log, output) : serve(options, log, output);
 }
 
 int perform_in_words(const std::vector<std::string>& typed, lightnet::StandardOutput& output) {

@@ -18,11 +18,17 @@ namespace {
 class DaemonGrammar {
 public:
     DaemonGrammar()
-        : app_("Renders for others. Serves one run at a time, run after run, until it is told to stop.", "lightnetd") {
+        : app_("Renders for others. Serves one run at a time (or --runs), run after run, until it is told to stop.",
+               "lightnetd") {
         add_reach();
         add_keys();
         add_stay();
         add_everywhere(app_, options_.plugins);
+        takes_numbers(
+            app_.add_option("--runs", options_.runs,
+                            "runs that it serves at a time, each at a port: that of --listen, and those after it"),
+            "N", 1, 64)
+            ->capture_default_str();
         takes_numbers(app_.add_option("--places", host().places, "threads that render; 0: one per core"), "N", 0, 1024)
             ->capture_default_str();
         app_.add_option("--cache", host().cache, "folder for files of scenes (default: ~/.cache/lightnet)")
@@ -43,6 +49,8 @@ public:
             });
         app_.add_flag("--quiet", options_.quiet, "say nothing but where it listens");
         app_.add_option("--parent", options_.parent, "end when this process ends")->group("");
+        app_.add_option("--supervisor", options_.supervisor, "one of several daemons of this process")->group("");
+        app_.add_option("--ports", host().ports, "of these, its own first")->group("");
         app_.add_flag("--led", options_.led, "read the key from the standard input, and end with that")->group("");
         app_.set_version_flag("--version", "lightnetd " + build_id());
         add_examples(app_, {"lightnetd --listen tcp://127.0.0.1:7777 --places 4",
@@ -67,6 +75,15 @@ public:
         if (!insecure_ && !told_at->stays_here())
             return usage_error(
                 app_, beyond_this_machine("--metrics " + metrics, "put a server with TLS in front of 127.0.0.1"));
+        if (options_.parent || options_.led) options_.runs = 1;
+        const std::string several = "--runs " + std::to_string(options_.runs) + ": ";
+        if (options_.runs > 1 && !host().join.empty())
+            return usage_error(app_, several + "a daemon that joins a launcher serves that alone; leave --join out");
+        if (options_.runs > 1 && patience_)
+            return usage_error(app_, several + "--leave-after is of a daemon that serves one run at a time");
+        if (options_.runs > 1 && !metrics.empty() && told_at->port == 0)
+            return usage_error(
+                app_, several + "--metrics needs a port, for the first of them; others tell at those after it");
         return options_;
     }
 

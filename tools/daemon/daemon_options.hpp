@@ -1,6 +1,7 @@
 // Options of lightnetd.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,6 +22,8 @@ struct DaemonOptions {
     std::string key_file;              // of its own key; "": the usual one
     bool print_key = false;            // and nothing else
     std::vector<std::string> plugins;  // shared libraries
+    std::uint32_t runs = 1;            // that it serves at a time, see supervise()
+    int supervisor = 0;                // the process that started it as one of several, without which it ends; 0: none
     std::string metrics;               // address at which it tells Prometheus how it does; "": nowhere
 };
 

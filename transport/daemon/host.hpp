@@ -46,6 +46,7 @@ public:
         std::optional<PublicKey> launcher_key;     // of the launcher that it joins; none: that has no key
         std::chrono::milliseconds line_life = usual_line_life;  // of one with keys
         std::uint32_t places = 0;                               // 0: one per core
+        std::string ports{};                                    // of daemons that stand for one, see RunPorts
         std::string cache;                                      // folder for blobs; empty: default_cache_folder()
         std::uint64_t cache_size = usual_cache_size;
         std::chrono::milliseconds drain{20'000};            // to answer what it has when it is told to stop

@@ -127,7 +127,8 @@ void Host::Service::begin(const Sender& sender, std::uint64_t id, const Fields& 
         return;
     }
     if (run || arriving || ending)
-        return door.send(route, Type::refuse, id, Fields{}.set("text", busy_with()).set("busy", 1));
+        return door.send(route, Type::refuse, id,
+                         Fields{}.set("text", busy_with()).set("busy", 1).set("ports", options.ports));
     if (const auto size = fields.text("job").size() + fields.text("plan").size(); size > most_job_bytes)
         return refuse(route, id, "a job of " + std::to_string(size) + " bytes is larger than any that is taken");
     auto read = background.start([job = fields.text("job"), plan = fields.text("plan"), this] {
@@ -256,6 +257,7 @@ void Host::Service::tell_state(const Sender& sender) {
         fields.set("nodes", run->nodes()).set("bundles", given);
         fields.set("progress", run->places() ? run->places()->progress() : 0);
     }
+    fields.set("ports", options.ports);
     door.send(sender.route, Type::state, 0, fields);
 }
 

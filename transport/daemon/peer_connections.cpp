@@ -40,9 +40,8 @@ PeerConnections::Peer& PeerConnections::peer(const std::string& host) {
 
 void PeerConnections::open(const std::string& host, Peer& to) {
     to.line.reset();  // first: there may be no descriptors for both
-    to.line = transport_.connect(host, handlers_.keys(host));
-    const auto parts = tcp_endpoint(host);
-    if (const auto heard = heard_.find(parts ? parts->host : host); heard != heard_.end()) to.line->hear(heard->second);
+    to.line = transport_.connect(addresses_.endpoint_of(host), handlers_.keys(host));
+    if (auto at = addresses_.of(host); !at.empty()) to.line->hear(std::move(at));
     to.paced.restart();
     to.opened = to.called = std::chrono::steady_clock::now();
     to.lease = Lease(call_interval, shortest_lease, longest_lease);
@@ -52,15 +51,12 @@ void PeerConnections::open(const std::string& host, Peer& to) {
 }
 
 void PeerConnections::hear(const std::string& lines) {
-    heard_.clear();
-    std::istringstream in(lines);
-    for (std::string name, number; in >> name >> number;)
-        if (const auto at = ip_address(number);
-            at && !at->is_loopback() && !at->is_unspecified() && !at->is_link_local())
-            heard_[name].push_back(*at);
-    for (auto& [host, to] : peers_)
-        if (const auto parts = tcp_endpoint(host); parts && to.line && heard_.contains(parts->host))
-            to.line->hear(heard_[parts->host]);
+    const bool ports_changed = addresses_.hear(lines);
+    for (auto& [host, to] : peers_) {
+        if (!to.line) continue;
+        if (ports_changed) open_anew(host, to);
+        if (auto at = addresses_.of(host); to.line && !at.empty()) to.line->hear(std::move(at));
+    }
 }
 
 PacedLine::Send PeerConnections::socket_of(Peer& to) {
@@ -89,7 +85,7 @@ void PeerConnections::tick(Time now) {
             to.relayed = false;
         }
         if (!to.relayed) to.paced.go_on(now, socket_of(to));
-        if (look) renew_old(host, to, now);
+        if (look && now - to.opened > line_life_ && handlers_.keys(host)) open_anew(host, to);
         if (look && to.line && !to.relayed) look_whether_reachable(host, to, now);
         if (look && to.line && !to.relayed) look_whether_silent(host, to, now);
     }
@@ -114,8 +110,8 @@ void PeerConnections::take(const std::string& host, Peer& to, Frames& frames) {
 
 // The greeting on the new line has all asked again that is under way.
 // DECISIONS: lines-are-renewed
-void PeerConnections::renew_old(const std::string& host, Peer& to, Time now) {
-    if (now - to.opened <= line_life_ || !handlers_.keys(host)) return;
+void PeerConnections::open_anew(const std::string& host, Peer& to) {
+    to.greeted = true;
     try {
         open(host, to);
     } catch (const LineError&) {  // out of descriptors, say

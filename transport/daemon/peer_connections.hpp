@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/network/graph/plan.hpp"
+#include "transport/daemon/peer_addresses.hpp"
 #include "transport/lines/host_transport.hpp"
 #include "transport/lines/line_book.hpp"
 #include "transport/lines/paced_line.hpp"
@@ -40,8 +41,7 @@ public:
     void ask(Frames frames);
     /// Takes in what has come, and sends what has waited for its connection.
     void tick(Time now);
-    /// Where the launcher has found hosts ("onyx1 10.0.0.11" a line), whose names may mean nothing here. Numbers that
-    /// mean another machine elsewhere are left out.
+    /// See PeerAddresses.
     void hear(const std::string& lines);
     /// Connections to hosts that are no more are closed.
     void use(const Plan& plan);
@@ -66,22 +66,22 @@ private:
     };
     Peer& peer(const std::string& host);
     void open(const std::string& host, Peer& to);
+    void open_anew(const std::string& host, Peer& to);
     static PacedLine::Send socket_of(Peer& to);
     void look_whether_silent(const std::string& host, Peer& to, Time now);
     void give_up(const std::string& host, Peer& to);
     void take(const std::string& host, Peer& to, Frames& frames);
     bool is_quick(const Peer& to) const;
     void tell_quick() const;
-    void renew_old(const std::string& host, Peer& to, Time now);
     void look_whether_reachable(const std::string& host, Peer& to, Time now);
 
     HostTransport& transport_;
     std::string me_;
     Handlers handlers_;
     std::chrono::milliseconds line_life_;
-    std::map<std::string, Peer> peers_;                    // by host
-    std::map<std::string, std::vector<IpAddress>> heard_;  // by name
-    std::size_t hosts_ = 0;                                // of the plan, but for this one
+    std::map<std::string, Peer> peers_;  // by host
+    PeerAddresses addresses_;
+    std::size_t hosts_ = 0;  // of the plan, but for this one
     Time looked_{};
     std::uint64_t opened_ = 0;  // lines so far
 };

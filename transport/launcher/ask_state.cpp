@@ -1,8 +1,11 @@
 #include "transport/launcher/ask_state.hpp"
 
 #include <algorithm>
+#include <sstream>
+#include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/ip_address.hpp"
 #include "transport/launcher/key_trouble.hpp"
 #include "transport/wire/packet.hpp"
 #include "transport/zmq/zmq_hosts.hpp"
@@ -21,6 +24,7 @@ struct Asked {
     int abandoned = 0;
     bool sent = false, all = false;
     std::vector<HostAnswer> answers{};
+    std::vector<AskedHost> beside{};  // daemons that stand for one with it
 
     HostAnswer answer_in(const Fields& fields) const {
         HostAnswer answer;
@@ -52,9 +56,48 @@ struct Asked {
             if (!header || header->type != Type::state || !fields) continue;
             answers.push_back(answer_in(*fields));
             all = fields->number("left") == 0;
+            find_others(fields->text("ports"));
+        }
+    }
+
+    // See RunPorts; its own comes first.
+    void find_others(const std::string& ports) {
+        auto parts = tcp_endpoint(host.endpoint);
+        std::istringstream in(ports);
+        bool own = true;
+        for (unsigned port = 0; parts && in >> port; in.ignore()) {
+            parts->port = std::to_string(port);
+            if (!std::exchange(own, false)) beside.push_back({parts->text(), host.keys});
         }
     }
 };
+
+/// Asks all of some hosts together, each once.
+std::vector<Asked> ask_together(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience) {
+    const auto transport = zmq_hosts();
+    std::vector<Asked> asked;
+    for (const auto& host : hosts) {
+        if (std::any_of(asked.begin(), asked.end(),
+                        [&](const auto& one) { return one.host.endpoint == host.endpoint; }))
+            continue;
+        try {
+            asked.push_back({host, transport->connect(host.endpoint, host.keys, Handshakes::noted)});
+        } catch (const LineError& error) {
+            throw Error(host.endpoint, std::string("can't be called: ") + error.what());
+        }
+    }
+    const auto end = Clock::now() + patience;
+    while (Clock::now() < end && !std::all_of(asked.begin(), asked.end(), [](const auto& one) { return one.all; })) {
+        Poll poll;
+        for (const auto& one : asked) one.line->watch(poll);
+        poll.wait(std::chrono::milliseconds(5));
+        for (auto& one : asked) one.look();
+    }
+    for (auto& one : asked)
+        if (one.answers.empty()) one.answers.push_back(no_answer(one.host, *one.line, one.seen, one.abandoned));
+    for (auto& one : asked) one.line.reset();
+    return asked;
+}
 
 }  // namespace
 
@@ -75,30 +118,19 @@ HostAnswer no_answer(const AskedHost& host, const HostLine& line, std::optional<
 }
 
 std::vector<HostAnswer> ask_state(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience) {
-    const auto transport = zmq_hosts();
-    std::vector<Asked> asked;
-    for (const auto& host : hosts) {
-        if (std::any_of(asked.begin(), asked.end(),
-                        [&](const auto& one) { return one.host.endpoint == host.endpoint; }))
-            continue;
-        try {
-            asked.push_back({host, transport->connect(host.endpoint, host.keys, Handshakes::noted)});
-        } catch (const LineError& error) {
-            throw Error(host.endpoint, std::string("can't be called: ") + error.what());
-        }
-    }
-    const auto end = Clock::now() + patience;
-    while (Clock::now() < end && !std::all_of(asked.begin(), asked.end(), [](const auto& one) { return one.all; })) {
-        Poll poll;
-        for (const auto& one : asked) one.line->watch(poll);
-        poll.wait(std::chrono::milliseconds(5));
-        for (auto& one : asked) one.look();
-    }
+    const auto asked = ask_together(hosts, patience);
+    std::vector<AskedHost> beside;
+    for (const auto& one : asked)
+        for (const auto& other : one.beside)
+            if (std::none_of(asked.begin(), asked.end(),
+                             [&](const auto& known) { return known.host.endpoint == other.endpoint; }))
+                beside.push_back(other);
     std::vector<HostAnswer> answers;
-    for (auto& one : asked) {
-        if (one.answers.empty()) one.answers.push_back(no_answer(one.host, *one.line, one.seen, one.abandoned));
-        answers.insert(answers.end(), one.answers.begin(), one.answers.end());
-    }
+    const auto add = [&](const std::vector<Asked>& all) {
+        for (const auto& one : all) answers.insert(answers.end(), one.answers.begin(), one.answers.end());
+    };
+    add(asked);
+    add(ask_together(beside, patience));
     return answers;
 }
 

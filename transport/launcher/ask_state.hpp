@@ -42,7 +42,8 @@ HostAnswer no_answer(const AskedHost& host, const HostLine& line, std::optional<
 
 /// Asks all of them together, each once. One that does not answer within `patience` has a state that begins with "does
 /// not answer", or says what is wrong with keys.
-/// A launcher answers for all its hosts.
+/// A launcher answers for all its hosts. Of a daemon that serves several runs, each at a port of its own, all are asked
+/// when one is; they come last.
 std::vector<HostAnswer> ask_state(const std::vector<AskedHost>& hosts, std::chrono::milliseconds patience);
 
 }  // namespace lightnet

@@ -73,6 +73,7 @@ void Cluster::Links::tell_numbers() {
     for (const auto& link : links) {
         const auto name = tcp_endpoint(link->name()), at = tcp_endpoint(link->answering_at());
         if (name && at && name->host != at->host) numbers += name->host + " " + at->host + "\n";
+        if (name && at && name->port != at->port) numbers += link->name() + " " + at->port + "\n";
     }
     if (std::exchange(offer.numbers, numbers) == numbers) return;
     for (auto& link : links) link->tell_members();

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/ip_address.hpp"
 #include "transport/lines/line_error.hpp"
 
 namespace lightnet {
@@ -81,6 +82,14 @@ void CalledConnection::renew() {
     // The old ones go first: there may be no descriptors for both.
     for (auto* lane : {&work_, &files_, &next_, &old_}) *lane = {};
     for (auto* lane : {&work_, &files_}) open(*lane);
+}
+
+void CalledConnection::call_at(std::uint16_t port) {
+    if (auto parts = tcp_endpoint(endpoint_)) {
+        parts->port = std::to_string(port);
+        endpoint_ = parts->text();
+    }
+    renew();
 }
 
 void CalledConnection::watch(Poll& poll) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -22,6 +23,8 @@ public:
     virtual std::optional<Frames> receive() = 0;
     /// Nothing that was meant for the host before may reach it from now on.
     virtual void renew() = 0;
+    /// From now on it is called at another port; else as renew().
+    virtual void call_at(std::uint16_t) {}
     /// A second line to the same host is opened, beside the first.
     virtual void open_next() {}
     /// Sends this on it, as soon as it is there: false before. From then on it is the line; what is under way on the
@@ -51,6 +54,7 @@ public:
     bool send(Frames& frames, bool files) override;
     std::optional<Frames> receive() override;
     void renew() override;
+    void call_at(std::uint16_t port) override;
     void watch(Poll& poll) const override;
     std::optional<Handshake> look_at_handshake() override;
     void open_next() override;

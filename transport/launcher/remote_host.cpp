@@ -107,8 +107,10 @@ void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
         next_renewal_.reset();
         connection_->renew();
     }
-    if (state_ != State::calling) heartbeat(now);
-    if (now >= next_call_ && state_ == State::calling) {
+    if (const auto port = ports_.next_if_silent(now)) connect_anew(port, now);
+    const bool calls = state_ == State::calling || ports_.calls();
+    if (!calls) heartbeat(now);
+    if (now >= next_call_ && calls) {
         const bool connected = send(Type::hello, Fields{}.set("build", build_id()).set("isa", offer_.isa));
         next_call_ = now + (connected ? call_interval : connect_interval);
     } else if (now >= next_call_ && state_ == State::greeted) {
@@ -162,15 +164,21 @@ void RemoteHost::lose(Time now, const std::string& why) {
     if (drained_) return void(take_out(wanted_so));
     state_ = State::calling;
     reason_ = why;
-    next_call_ = now;
     pieces_.clear();
     files_.restart();
     brought_.clear();
+    connect_anew({}, now);
+    ports_.call(now);
+}
+
+// `port`: another one, of a daemon that serves several runs; none: as before.
+void RemoteHost::connect_anew(std::optional<std::uint16_t> port, Time now) {
+    port ? connection_->call_at(*port) : connection_->renew();
     between_.reset();
     line_.drop_waiting();
     line_.restart();
     arrived_ = line_.counted();
-    connection_->renew();
+    next_call_ = now;
 }
 
 // Who comes back after a loss was not late.
@@ -242,16 +250,18 @@ void RemoteHost::damaged(Time now, std::span<const std::byte> header) {
 void RemoteHost::control(Type type, const Fields& fields, Time now) {
     switch (type) {
         case Type::welcome:
-            if (state_ == State::calling) welcome(fields);
+            if (state_ == State::calling || ports_.calls()) welcome(fields);
             next_call_ = now;
             return;
         case Type::refuse:
             reason_ = fields.text("text");
             if (!fields.number("busy")) state_ = State::refused;
+            if (const auto port = ports_.next_after_refusal(fields.text("ports"), now)) connect_anew(port, now);
             return;
         case Type::need:
             if (state_ != State::greeted) return;
             reason_.clear();
+            ports_.taken();
             queue_blobs(fields.text("hashes"));
             state_ = pieces_.empty() ? State::building : State::sending;
             return;
@@ -284,7 +294,7 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;
             arrived_ = fields.number("sent");
-            compare_clocks(fields.number("asked_at"), fields.number("clock"));
+            clock_.compare(fields.number("asked_at"), fields.number("clock"), steady_nanoseconds());
             if (fields.number("process") != process_)
                 lose(now, "it was started anew");
             else if (state_ != State::greeted && fields.number("run") != offer_.run)
@@ -318,14 +328,6 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
     }
 }
 
-// The host read its clock between our question and its answer: what took least time tells most.
-void RemoteHost::compare_clocks(std::uint64_t asked_at, std::uint64_t its_clock) {
-    const auto now = steady_nanoseconds();
-    if (asked_at > now || (now - asked_at) / 2 >= clock_error_) return;
-    clock_error_ = (now - asked_at) / 2;
-    clock_ahead_ = static_cast<std::int64_t>(its_clock - (asked_at + clock_error_));
-}
-
 // What places did is for the report: one that can't be read is no reason to fail.
 void RemoteHost::take_end(const Fields& fields) {
     peak_memory_ = std::max(peak_memory_, fields.number("peak_memory"));
@@ -336,7 +338,7 @@ void RemoteHost::take_end(const Fields& fields) {
         for (auto& record : ended_->places) record.host = name_;
         ended_->traces = place_traces_from(fields.text("traces"));
         for (auto& trace : ended_->traces)
-            trace.host = name_, trace.clock_ahead = clock_ahead_, trace.clock_error = clock_error_;
+            trace.host = name_, trace.clock_ahead = clock_.ahead, trace.clock_error = clock_.error;
     } catch (const Error&) {
         ++counters_.broken_packets;
     }
@@ -350,6 +352,7 @@ void RemoteHost::welcome(const Fields& fields) {
     }
     unknown_ = false, welcomed_ = true;
     reason_.clear();
+    ports_.answered();
     places_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fields.number("places"), 1, 1024));
     process_ = fields.number("process");
     machine_ = machine_from(fields);

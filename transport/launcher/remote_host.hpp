@@ -15,6 +15,7 @@
 #include "core/run/message/message.hpp"
 #include "transport/launcher/host_connection.hpp"
 #include "transport/launcher/host_link.hpp"
+#include "transport/launcher/run_ports.hpp"
 #include "transport/lines/paced_line.hpp"
 #include "transport/wire/lease.hpp"
 #include "transport/wire/line_pace.hpp"
@@ -73,7 +74,6 @@ private:
     bool send(packet::Type type, const packet::Fields& fields);
     void control(packet::Type type, const packet::Fields& fields, Time now);
     void welcome(const packet::Fields& fields);
-    void compare_clocks(std::uint64_t asked_at, std::uint64_t its_clock);
     void take_end(const packet::Fields& fields);
     void queue_blobs(const std::string& hashes);
     void queue_blob(const Hash& hash);
@@ -89,13 +89,25 @@ private:
     std::string why_no_handshake(Handshake seen) const;
     bool lacks_something(const packet::Fields& pong);
     void damaged(Time now, std::span<const std::byte> header);
+    void connect_anew(std::optional<std::uint16_t> port, Time now);
 
     const RunOffer& offer_;
     Counters& counters_;
     std::unique_ptr<HostConnection> connection_;
     Doings doing_;
-    std::int64_t clock_ahead_ = 0;                   // of ours; nanoseconds
-    std::uint64_t clock_error_ = ~std::uint64_t{0};  // at most
+    /// How far its clock is ahead of ours, nanoseconds.
+    struct Clock {
+        std::int64_t ahead = 0;
+        std::uint64_t error = ~std::uint64_t{0};  // at most
+        // The host read its clock between our question and its answer: what took least time tells most.
+        void compare(std::uint64_t asked_at, std::uint64_t its_clock, std::uint64_t now) {
+            if (asked_at > now || (now - asked_at) / 2 >= error) return;
+            error = (now - asked_at) / 2;
+            ahead = static_cast<std::int64_t>(its_clock - (asked_at + error));
+        }
+    };
+    Clock clock_;
+    RunPorts ports_;
     HostFigures figures_;
     bool watched_ = false, ask_figures_ = false;
     bool drained_ = false;  // see drain()

@@ -9,12 +9,10 @@
 #include <thread>
 #include <utility>
 
-#include <poll.h>
-
 #include "core/base/error.hpp"
-#include "core/base/patience.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/start/child.hpp"
+#include "transport/start/daemon_start.hpp"
 
 namespace lightnet {
 namespace {
@@ -22,26 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* any_port = "tcp://127.0.0.1:*";
-
-constexpr auto start_patience = std::chrono::seconds(20);
-
-// The first line of a daemon: "listening on ENDPOINT". None: it has ended, or is silent.
-std::optional<std::string> read_endpoint(int in, Patience& patience) {
-    std::string line;
-    while (line.find('\n') == std::string::npos && !patience.is_over()) {
-        pollfd item{in, POLLIN, 0};
-        if (poll(&item, 1, static_cast<int>(patience.until_look().count())) <= 0) continue;
-        char buffer[256];
-        const auto n = read(in, buffer, sizeof buffer);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) break;
-        line.append(buffer, static_cast<std::size_t>(n));
-    }
-    const std::string before = "listening on ";
-    const auto at = line.find(before), ends = line.find('\n', std::min(at, line.size()));
-    if (at == std::string::npos || ends == std::string::npos) return std::nullopt;
-    return line.substr(at + before.size(), ends - at - before.size());
-}
 
 // The wait status of a process that is over, or is to be.
 int end_of(int process) {
@@ -107,7 +85,7 @@ bool LocalWorkers::await_start(Worker& worker, int out) {
     while (true) {
         const auto begun = Clock::now();
         Patience patience(start_patience);
-        const auto endpoint = read_endpoint(out, patience);
+        const auto endpoint = endpoint_said(out, patience);
         close(out);
         if (endpoint) {
             worker.endpoint = worker.listens = *endpoint;
