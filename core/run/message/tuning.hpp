@@ -29,6 +29,7 @@ struct Tuning {
     std::uint32_t credit_questions = 8192;
     std::uint64_t credit_bytes = std::uint64_t{8} << 20;
     std::uint32_t own_lines = 64;
+    std::uint32_t share = 100;
     bool call_own_nodes = true;
     bool trace = false;
     friend bool operator==(const Tuning&, const Tuning&) = default;
@@ -52,7 +53,7 @@ struct Knob {
     const char* help;
 };
 
-inline constexpr std::array<Knob, 17> knobs{{
+inline constexpr std::array<Knob, 18> knobs{{
     {"tile", &Tuning::tile, Knob::By::users, Knob::Where::launcher, 1, 256, "N", "pixels along a side of a tile"},
     {"bundle", &Tuning::bundle, Knob::By::users, Knob::Where::places, 1, 65536, "N", "questions in a full bundle"},
     {"credit", &Tuning::credit, Knob::By::users, Knob::Where::places, 1, 1024, "N",
@@ -69,6 +70,8 @@ inline constexpr std::array<Knob, 17> knobs{{
      "fibers of a place for questions that wrapped code asks"},
     {"check_answers", &Tuning::check_answers, Knob::By::users, Knob::Where::places, 0, 0, "",
      "ask wrapped classes some questions twice, and compare all that is answered twice, bit by bit"},
+    {"share", &Tuning::share, Knob::By::users, Knob::Where::places, 2, 100, "PERCENT",
+     "of an equal part of a host's processors, while other runs want them, too"},
     {"verify", &Tuning::verify, Knob::By::tests, Knob::Where::places, 0, 1'000'000, "N",
      "millionths of all answers that are asked of a second host as well; users say --verify FRACTION"},
     {"oldest_us", &Tuning::oldest_us, Knob::By::tests, Knob::Where::places, 0, 3'600'000'000, "N",
