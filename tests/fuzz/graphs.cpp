@@ -72,6 +72,14 @@ scene = Scene { 'a.xml', camera = { from = { 0, 1, 2 }, fov = 40 }, constants = 
 local t = setmetatable({}, { __index = function(t, k) return k end })
 image = RayTracer { bounce, scene = scene, film = { 4, 4, crop = { 0, 0, 2, 2 } } }
 )",
+        R"(scene = Scene { "box.pbrt", fog = { density = .1 }, groups = { key = "spot" } }
+direct = DirectLighting { groups = true }
+walls, air = Select { direct, where = "surfaces" }, DirectLighting {}
+fog = Select { air, where = "media" }
+light = Combine { walls, fog, PathTracing {} }
+image = RayTracer { light, scene = scene, film = { 4, 4 }, groups = true,
+                    layers = { once = "CS*V<L.'key'>", lit = { "C[SD]*DO", "CB|<.S>" }, more = "CS*[DV].{1,3}L?" } }
+)",
         R"(strategy = "affinity"
 place "tcp://onyx1:7777" { direct = 1, caustics = 2, places = 4 }
 place "onyx2" {}

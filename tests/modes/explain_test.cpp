@@ -200,6 +200,13 @@ TEST_F(Explain, PrintsQuestionsThatCanBeAskedAgain) {
     }
 }
 
+TEST_F(Explain, CallsACollisionByItsLetter) {
+    render(graph_file("fog.lua"), small);
+    Process told = explain("8,8");
+    EXPECT_EQ(told.wait(), 0) << told.output();
+    EXPECT_THAT(told.output(), HasSubstr("V, a collision in a medium"));
+}
+
 TEST_F(Explain, DrawsThePathsOverThePicture) {
     render(graph_file("cornell.lua"), small);
     Process told = explain("8,12", {"--paths", folder / "paths.png"});

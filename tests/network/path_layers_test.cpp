@@ -204,6 +204,19 @@ TEST(PathLayers, MeanFogAsWellBySayingRoughWhereNoneNamesIt) {
     EXPECT_THAT(layers_of(found.graph, nodes()).film, ElementsAre("emission", "once", "bounce"));
 }
 
+// Gathering asks about the next corner, so the one before it may be told apart, too.
+TEST(PathLayers, KnowWhatFogSendsToWalls) {
+    const auto found = examine(test::parse("scene = Scene { 'box.pbrt', fog = { density = 0.1 } }\n"
+                                           "direct = DirectLighting {} in_fog = Select { direct, where = 'media' }\n"
+                                           "gather = FinalGather { in_fog }\n"
+                                           "on_walls = Select { gather, where = 'surfaces' }\n"
+                                           "image = RayTracer { on_walls, scene = scene, film = { 8, 4 }, "
+                                           "layers = { glow = 'CS*DS*VL' } }"),
+                               nodes());
+    for (const auto& problem : found.problems) ADD_FAILURE() << problem.what;
+    EXPECT_THAT(layers_of(found.graph, nodes()).film, ElementsAre("emission", "glow"));
+}
+
 TEST(PathLayers, SayWhoseSurfacesAndMediaAreNotApart) {
     EXPECT_THAT(wrong_in_fog("a = 'CS*V.+L'"), HasSubstr("of 'bounce', but not L"));
     EXPECT_THAT(wrong_in_fog("a = 'CS*V.+L'"), HasSubstr("Select { …, where = \"media\" } keeps them apart"));

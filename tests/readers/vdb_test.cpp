@@ -83,6 +83,13 @@ TEST(Vdb, IsRefusedWithTheReasonWhereItIsOfAnotherKind) {
                 HasSubstr("grid 'density' is of type 'Tree_vec3s_5_4_3', not float"));
     EXPECT_THAT(error_of(vdb_file({points}, {0, false, "UniformScaleTranslateMap", "Tree_float_5_4_3", "level set"})),
                 HasSubstr("grid 'density' is not a fog volume"));
+    const std::size_t first = 8 + 4 + 8 + 1 + 36 + 4;  // where it says how many grids there are
+    EXPECT_THAT(changed([&](auto& b) {
+                    std::memset(&b[first], 0xff, 4);
+                    const std::uint64_t again = first + 4;
+                    std::memcpy(&b[first + 4 + 4 + 7 + 4 + 16 + 4 + 16], &again, 8);
+                }),
+                HasSubstr("a grid ends before it begins"));
     NanovdbPoints still = points;
     still.step = 0;
     EXPECT_THAT(error_of(vdb_file({still})), HasSubstr("transform"));

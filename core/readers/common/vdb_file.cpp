@@ -61,7 +61,9 @@ std::vector<StoredGrid> grids_of(std::span<const std::byte> bytes) {
     for (std::uint32_t i = 0; i < count; ++i) {
         grids.push_back(description_in(stream));
         const auto end = stream.get<std::uint64_t>();
-        if (i + 1 < count) stream = Stream(bytes, end);
+        if (i + 1 == count) break;
+        if (end < stream.at()) throw Error("a grid ends before it begins");  // or there would be no end of them
+        stream = Stream(bytes, end);
     }
     return grids;
 }

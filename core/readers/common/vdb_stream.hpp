@@ -51,6 +51,7 @@ public:
     std::string text();
     Mask mask(std::uint32_t parts) { return Mask(part(parts / 8)); }
     std::size_t file_size() const { return bytes_.size(); }
+    std::uint64_t at() const { return at_; }
 
 private:
     CheckedBytes bytes_;
