@@ -93,9 +93,10 @@ int serve_several(const lightnet::DaemonOptions& options, const std::vector<std:
     const auto& stop = lightnet::watch_signals();
     std::optional<lightnet::SingleInstance> only;
     if (!options.single.empty()) only.emplace(options.single, stop.any);
-    lightnet::supervise({options.runs, options.host.listen, options.metrics,
-                         without({"--listen", "--runs", "--metrics", "--single"}, words), options.quiet},
-                        stop, log);
+    lightnet::supervise(
+        {options.runs, options.host.listen, options.metrics,
+         without({"--listen", "--runs", "--metrics", "--single", "--memory"}, words), options.quiet, options.memory},
+        stop, log);
     say_where_nobody_reads(output, log);
     return lightnet::exit_code::done;
 }
@@ -110,7 +111,8 @@ int serve(lightnet::DaemonOptions options, const lightnet::DaemonLog& log, light
     if (options.parent) live_no_longer_than(options.parent);
     if (options.supervisor) {
         live_no_longer_than(options.supervisor);
-        setpgid(0, 0);  // Ctrl-C is for the one that all of them look like
+        // Terminals and service managers tell each process; the one that all of them look like hands it on as SIGUSR1.
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
     }
     if (options.parent || options.led) options.metrics.clear();  // of the one daemon that the environment may be for
     if (!options.quiet && !options.parent) options.host.log = log;

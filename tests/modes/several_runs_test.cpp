@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/modes/keyed.hpp"
+#include "tools/daemon/memory_bound.hpp"
 
 namespace lightnet::test {
 namespace {
@@ -142,6 +143,43 @@ TEST_F(SeveralRuns, EndWithTheirDaemonHoweverThatEnds) {
     }
 }
 
+// As many hold as one that is at work and one that is not, and not quite so much.
+TEST_F(SeveralRuns, GoOnWithoutADaemonThatHoldsTooMuch) {
+    std::uint64_t idle = 0, at_work = 0;
+    {
+        const Daemon unbounded(folder, 1, any_port, {"--runs", "2"});
+        const auto processes = children_of(unbounded.process->id());
+        const auto run = start("measured", whole(unbounded.endpoint), endless);
+        ASSERT_TRUE(renders(*run)) << run->output();
+        at_work = use_of(processes.at(0)).value().memory, idle = use_of(processes.at(1)).value().memory;
+        run->signal(SIGINT), run->wait();
+    }
+    ASSERT_GT(at_work, idle);
+    const Daemon bounded(folder, 1, any_port, {"--runs", "2", "--memory", std::to_string(idle + (idle + at_work) / 2)});
+    const Daemon beside(folder);
+    const auto run = start("one", whole(bounded.endpoint) + whole(beside.endpoint), "800");
+    EXPECT_TRUE(run->wait_for(bounded.endpoint + " was told to stop")) << run->output();
+    EXPECT_TRUE(bounded.process->wait_for("is told to end")) << bounded.process->output();
+    const auto end = end_of(*run, "one");
+    EXPECT_EQ(end.code, 0) << end.said;
+    EXPECT_TRUE(end.picture == serial("800")) << "the bytes differ";
+}
+
+// As a service manager tells them.
+TEST_F(SeveralRuns, FinishWhatTheyHaveWhereEachProcessIsToldToStop) {
+    const Daemon daemon(folder, 1, any_port, {"--runs", "2"}), beside(folder);
+    const auto processes = children_of(daemon.process->id());
+    const auto run = start("one", whole(daemon.endpoint) + whole(beside.endpoint), "200");
+    ASSERT_TRUE(renders(*run) && run->wait_for(daemon.endpoint + " is ready")) << run->output();
+    for (const int process : processes) kill(process, SIGTERM);
+    daemon.process->signal(SIGTERM);
+    EXPECT_EQ(daemon.process->wait(), 0) << daemon.process->output();
+    const auto end = end_of(*run, "one");
+    EXPECT_EQ(end.code, 0) << end.said;
+    EXPECT_THAT(end.said, HasSubstr(daemon.endpoint + " was told to stop"));
+    EXPECT_THAT(end.said, testing::Not(HasSubstr("does not answer"))) << "or it ended in the middle of its work";
+}
+
 // Of a thread of a process by its name: its niceness, field 19 of its figures.
 std::vector<int> nicenesses_of(int process, const std::string& thread) {
     std::vector<int> all;
@@ -192,6 +230,7 @@ TEST_F(SeveralRuns, AreRefusedWhereTheyMeanNothing) {
     for (const auto& [words, why] : std::vector<std::pair<Words, std::string>>{
              {{"--join", "tcp://127.0.0.1:7000"}, "leave --join out"},
              {{"--leave-after", "5"}, "serves one run at a time"},
+             {{"--runs", "1", "--memory", "4G"}, "say --runs"},
              {{"--metrics", "127.0.0.1"}, "--metrics needs a port"},
              {{"--listen", "tcp://127.0.0.1:65535"}, "no 2 ports from 65535 on"}}) {
         Words all{program("lightnetd"), "--runs", "2"};

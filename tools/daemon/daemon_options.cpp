@@ -37,6 +37,11 @@ public:
             ->type_name("SIZE")
             ->default_str("4G")
             ->transform(CLI::AsSizeValue(false).description(""));
+        app_.add_option("--memory", options_.memory,
+                        "bytes that the processes of --runs may hold together, like 24G; when they have more, the one "
+                        "that has been idle for longest ends, and is started anew")
+            ->type_name("SIZE")
+            ->transform(CLI::AsSizeValue(false).description(""));
         app_.add_option("--metrics", options_.metrics, "tell Prometheus how it does: GET http://ADDRESS:PORT/metrics")
             ->type_name("ADDRESS:PORT");
         app_.add_option_function<std::string>(
@@ -81,6 +86,8 @@ public:
             return usage_error(app_, several + "a daemon that joins a launcher serves that alone; leave --join out");
         if (options_.runs > 1 && patience_)
             return usage_error(app_, several + "--leave-after is of a daemon that serves one run at a time");
+        if (options_.runs == 1 && options_.memory && !options_.supervisor && !options_.parent && !options_.led)
+            return usage_error(app_, "--memory is of a daemon that serves several runs: say --runs, too");
         if (options_.runs > 1 && !metrics.empty() && told_at->port == 0)
             return usage_error(
                 app_, several + "--metrics needs a port, for the first of them; others tell at those after it");

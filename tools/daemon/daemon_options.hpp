@@ -23,6 +23,7 @@ struct DaemonOptions {
     bool print_key = false;            // and nothing else
     std::vector<std::string> plugins;  // shared libraries
     std::uint32_t runs = 1;            // that it serves at a time, see supervise()
+    std::uint64_t memory = 0;          // bytes that they may hold together; 0: any
     int supervisor = 0;                // the process that started it as one of several, without which it ends; 0: none
     std::string metrics;               // address at which it tells Prometheus how it does; "": nowhere
 };

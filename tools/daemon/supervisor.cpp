@@ -15,6 +15,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/ip_address.hpp"
+#include "tools/daemon/memory_bound.hpp"
 #include "tools/http/watch_rules.hpp"
 #include "transport/address/listening.hpp"
 #include "transport/start/child.hpp"
@@ -27,6 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto look_interval = std::chrono::milliseconds(50);
+constexpr auto measure_interval = std::chrono::seconds(1);
 constexpr auto of_use_after = std::chrono::seconds(10);
 constexpr std::uint32_t most_ports = 65535;
 
@@ -44,7 +46,8 @@ public:
           log_(log),
           program_(std::filesystem::read_symlink("/proc/self/exe").string()),
           ports_(supervised_ports(wanted)),
-          all_(wanted.runs) {}
+          all_(wanted.runs),
+          bound_(wanted.memory) {}
     ~Daemons() {
         for (const auto& one : all_)
             if (one.process) kill(one.process, SIGKILL);
@@ -82,21 +85,22 @@ public:
             const auto now = Clock::now();
             if (one.process && waitpid(one.process, &status, WNOHANG) == one.process) {
                 forget(one);
-                one.restarts.died(now, now - one.started > of_use_after);
+                one.restarts.died(now, one.told || now - one.started > of_use_after);
                 tell_death(i, status);
             } else if (!one.process && one.restarts.due(now)) {
                 one.out = start(i);
             }
         }
+        if (wanted_.memory && Clock::now() >= next_measure_) bound_memory(Clock::now());
         if (std::all_of(all_.begin(), all_.end(), [](const auto& one) { return one.restarts.given_up(); }))
             throw Error("none of its daemons stays");
     }
 
     void stop() {
-        for (const auto& one : all_)
-            if (one.process) kill(one.process, SIGTERM);
-        for (auto& one : all_)
-            if (one.process) wait_for(one);
+        while (std::any_of(all_.begin(), all_.end(), [](const auto& one) { return one.process != 0; })) {
+            for (auto& one : all_) tell_and_look(one);
+            std::this_thread::sleep_for(look_interval);
+        }
     }
 
 private:
@@ -104,6 +108,7 @@ private:
         int process = 0;  // 0: it has ended
         int out = -1;     // its standard output, which nobody reads after its first line
         Clock::time_point started{};
+        bool told = false;  // to end
         Restarts restarts{};
     };
 
@@ -131,6 +136,7 @@ private:
         auto& one = all_[number];
         one.process = spawn(std::move(words), &out);
         one.started = Clock::now();
+        one.told = false;
         return out;
     }
 
@@ -143,6 +149,35 @@ private:
                                     (all_[number].restarts.given_up() ? ", and is given up" : "; it is started anew")});
     }
 
+    // One after the other: what one gives back may be enough.
+    void bound_memory(Clock::time_point now) {
+        next_measure_ = now + measure_interval;
+        std::vector<std::optional<ProcessUse>> all;
+        for (const auto& one : all_) all.push_back(one.process ? use_of(one.process) : std::nullopt);
+        const auto verdict = bound_.look(all, now);
+        if (!verdict || std::any_of(all_.begin(), all_.end(), [](const auto& one) { return one.process && one.told; }))
+            return;
+        auto& one = all_[verdict->number];
+        one.told = true;
+        tell(one);
+        if (!wanted_.quiet) log_({LogLevel::warning, words_of(*verdict)});
+    }
+    std::string words_of(const MemoryBound::Verdict& verdict) const {
+        const auto mebibytes = [](std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
+        return "its daemons hold " + mebibytes(verdict.together) + " together, more than --memory allows (" +
+               mebibytes(wanted_.memory) + "): the one at port " + std::to_string(ports_[verdict.number]) +
+               ", which holds " + mebibytes(verdict.its) + " and has been idle for " +
+               std::to_string(verdict.idle.count()) + " s, is told to end";
+    }
+
+    // The only signal that they take, see lightnetd.cpp.
+    static void tell(const Daemon& one) { kill(one.process, SIGUSR1); }
+    // Again and again, as one that has just been started doesn't listen to it yet.
+    static void tell_and_look(Daemon& one) {
+        if (!one.process) return;
+        tell(one);
+        if (waitpid(one.process, nullptr, WNOHANG) == one.process) forget(one);
+    }
     static void forget(Daemon& one) {
         one.process = 0;
         if (one.out >= 0) close(std::exchange(one.out, -1));
@@ -158,6 +193,8 @@ private:
     std::string program_, first_;
     std::vector<std::uint16_t> ports_;
     std::vector<Daemon> all_;
+    MemoryBound bound_;
+    Clock::time_point next_measure_{};
 };
 
 }  // namespace

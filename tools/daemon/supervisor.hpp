@@ -17,6 +17,7 @@ struct SupervisedDaemons {
     std::string metrics;             // where the first of them tells Prometheus how it does; "": none does
     std::vector<std::string> words;  // of the command line, for each
     bool quiet = false;              // no log
+    std::uint64_t memory = 0;        // bytes that they may hold together, see MemoryBound; 0: any
 };
 
 /// Their ports: the one that the first listens at and those after it, or, where that is left to the system, any that
