@@ -180,6 +180,22 @@ TEST_F(SeveralRuns, FinishWhatTheyHaveWhereEachProcessIsToldToStop) {
     EXPECT_THAT(end.said, testing::Not(HasSubstr("does not answer"))) << "or it ended in the middle of its work";
 }
 
+TEST_F(SeveralRuns, AreServedByAnotherProcessWhileTheFirstStops) {
+    const Daemon daemon(folder, 1, any_port, {"--runs", "2"});
+    const auto processes = children_of(daemon.process->id());
+    const auto one = start("one", whole(daemon.endpoint), endless);
+    ASSERT_TRUE(renders(*one)) << one->output();
+    one->signal(SIGSTOP);  // so that its host waits
+    kill(processes[0], SIGUSR1);
+    ASSERT_TRUE(daemon.process->wait_for("finishes what it has, then stops")) << daemon.process->output();
+    const auto two = start("two", whole(daemon.endpoint), "4");
+    const auto end = end_of(*two, "two");
+    EXPECT_EQ(end.code, 0) << end.said;
+    EXPECT_TRUE(lives(processes[0])) << "or its successor has served the run";
+    EXPECT_TRUE(end.picture == serial("4"));
+    one->signal(SIGKILL);
+}
+
 // Of a thread of a process by its name: its niceness, field 19 of its figures.
 std::vector<int> nicenesses_of(int process, const std::string& thread) {
     std::vector<int> all;
@@ -247,7 +263,7 @@ TEST_F(SeveralKeyedRuns, RenderAtTheSameTime) {
     folder.write("launchers", user.open.text() + " user\n");
     const Daemon daemon(folder, 1, "tcp://127.0.0.1:*",
                         {"--runs", "2", "--key", folder.file("host.key"), "--allow", folder.file("launchers")});
-    const auto one = start(place(daemon.endpoint, "host"), long_words("400"));
+    const auto one = start(place(daemon.endpoint, "host"), long_words("1000000"));  // ended from outside
     ASSERT_TRUE(one->wait_for("\"event\":\"progress\"")) << one->output();
     const Folder other;
     const auto two = launch(graph_file("cornell.lua"), other,

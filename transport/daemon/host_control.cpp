@@ -84,7 +84,10 @@ Fields Host::Service::answer_to_ping(const Fields& ping, bool ours) {
 }
 
 void Host::Service::greet(const std::string& route, const Fields& fields) {
-    if (leaving) return;  // whoever comes after it may serve
+    if (leaving && options.ports.empty()) return;  // whoever comes after it may serve
+    if (leaving)                                   // others of its supervisor may serve at once
+        return door.send(route, Type::refuse, 0,
+                         Fields{}.set("text", "it stops").set("busy", 1).set("ports", options.ports));
     if (fields.text("build") != build_id())
         return door.send(
             route, Type::refuse, 0,
