@@ -1,11 +1,13 @@
 // Daemons that serve several runs at a time, each in a process of its own.
 #include <gmock/gmock.h>
 
+#include <sched.h>
 #include <sys/resource.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -228,6 +230,48 @@ TEST_F(SeveralRuns, TakeASmallerShareWhereTheyWantNoMore) {
     ASSERT_TRUE(renders(*three)) << three->output();
     EXPECT_THAT(nicenesses_of(processes[0], "place 0"), testing::ElementsAre(usual)) << "of the run that it serves";
     three->signal(SIGINT), three->wait();
+}
+
+// Bound to one processor while it lives, as is whoever is started meanwhile.
+class OnOneProcessor {
+public:
+    OnOneProcessor() {
+        sched_getaffinity(0, sizeof before_, &before_);
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        for (int number = 0; number < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++number)
+            if (CPU_ISSET(number, &before_)) CPU_SET(number, &one);
+        sched_setaffinity(0, sizeof one, &one);
+    }
+    ~OnOneProcessor() { sched_setaffinity(0, sizeof before_, &before_); }
+    OnOneProcessor(const OnOneProcessor&) = delete;
+    OnOneProcessor& operator=(const OnOneProcessor&) = delete;
+
+private:
+    cpu_set_t before_{};
+};
+
+// Six steps of niceness are a ratio of 1.25^6 = 3.8 under the scheduler of Linux.
+TEST_F(SeveralRuns, HaveTheirPartsOfAProcessorThatBothWant) {
+    std::optional<OnOneProcessor> bound(std::in_place);
+    const Daemon daemon(folder, 1, any_port, {"--runs", "2"});
+    bound.reset();
+    const auto processes = children_of(daemon.process->id());
+    const auto polite = start("one", whole(daemon.endpoint), endless, {"--share", "26"});
+    ASSERT_TRUE(renders(*polite)) << polite->output();
+    const auto usual = start("two", whole(daemon.endpoint), endless);
+    ASSERT_TRUE(renders(*usual)) << usual->output();
+    const auto computed = [](int process) { return use_of(process).value().computed; };
+    const auto before_polite = computed(processes[0]), before_usual = computed(processes[1]);
+    milliseconds by_polite{}, by_usual{};
+    const auto end = std::chrono::steady_clock::now() + slowdown * seconds(60);
+    while (by_polite + by_usual < seconds(4) && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(milliseconds(20));
+        by_polite = computed(processes[0]) - before_polite, by_usual = computed(processes[1]) - before_usual;
+    }
+    EXPECT_GT(by_usual, by_polite * 5 / 2) << by_usual.count() << " and " << by_polite.count() << " ms";
+    EXPECT_LT(by_usual, by_polite * 7) << by_usual.count() << " and " << by_polite.count() << " ms";
+    for (auto* run : {&*polite, &*usual}) run->signal(SIGINT), run->wait();
 }
 
 TEST_F(SeveralRuns, AreToldOfByLightnetHosts) {
