@@ -216,6 +216,7 @@ void Cluster::Links::tell_changes() {
         if (state == before) continue;
         const bool was_there = before == State::ready || before == State::leaving;
         if (state == State::ready) options.say(link->ready_words());
+        if (state == State::ready) link->tell_members();  // they may have changed since it was begun with
         if (link->takes_part() && in_force) link->use(*in_force);
         if (state == State::refused)
             options.say(link->name() + (was_there ? " is taken out: " : " takes no part: ") + link->reason());
