@@ -31,12 +31,12 @@ static_assert(has_room_for(std::make_index_sequence<lines>()) && !has_room_for(s
 // Other than it usually is.
 void turn(const Knob& knob, Tuning& tuning) {
     struct Turn {
+        std::uint64_t most;
         void operator()(bool& flag) const { flag = !flag; }
         void operator()(std::string& text) const { text = "other"; }
-        void operator()(std::uint32_t& number) const { ++number; }
-        void operator()(std::uint64_t& number) const { ++number; }
+        void operator()(auto& number) const { number < most ? ++number : --number; }
     };
-    std::visit([&](const auto& member) { Turn{}(tuning.*member); }, knob.member);
+    std::visit([&](const auto& member) { Turn{knob.most}(tuning.*member); }, knob.member);
 }
 
 TEST(Tuning, HasAKnobOfItsOwnForEachMember) {

@@ -51,17 +51,21 @@ TEST(LiveCleaning, ShowsLayersAsTheyAreUntilAllPixelsHaveSamples) {
         }
 }
 
-TEST(LiveCleaning, ShowsWhatTheFileWouldHave) {
+TEST(LiveCleaning, ShowsADraftAndInTheEndWhatTheFileHas) {
     Film film(format);
     film.expose(0.5f);
     LiveCleaning cleaning(format);
     add(film, 6);
     ASSERT_TRUE(cleans(cleaning, film));
-    const Picture picture = clean(film.picture(0.5f)).picture;
-    const auto shown = cleaning.so_far(film, corner);
-    for (std::size_t i = 0; i < corner.pixels(); ++i)
-        for (std::size_t k = 0; k < 2; ++k)
-            ASSERT_EQ(shown[i * 6 + 4 + k], picture.layers[k].pixels[i / 16 * 48 + i % 16]);
+    const auto expect_shown = [&](const Picture& picture) {
+        const auto shown = cleaning.so_far(film, corner);
+        for (std::size_t i = 0; i < corner.pixels(); ++i)
+            for (std::size_t k = 0; k < 2; ++k)
+                ASSERT_EQ(shown[i * 6 + 4 + k], picture.layers[k].pixels[i / 16 * 48 + i % 16]);
+    };
+    expect_shown(clean(film.picture(0.5f), CleanQuality::draft).picture);
+    ASSERT_TRUE(cleaning.finish(film));
+    expect_shown(clean(film.picture(0.5f)).picture);
 }
 
 TEST(LiveCleaning, ForgetsAPictureThatIsBegunAnew) {
