@@ -34,7 +34,8 @@ void turn(const Knob& knob, Tuning& tuning) {
         std::uint64_t most;
         void operator()(bool& flag) const { flag = !flag; }
         void operator()(std::string& text) const { text = "other"; }
-        void operator()(auto& number) const { number < most ? ++number : --number; }
+        void operator()(std::uint32_t& number) const { number < most ? ++number : --number; }
+        void operator()(std::uint64_t& number) const { number < most ? ++number : --number; }
     };
     std::visit([&](const auto& member) { Turn{knob.most}(tuning.*member); }, knob.member);
 }
