@@ -19,9 +19,9 @@ public:
     /// The empty set.
     PathSet() = default;
     /// Reads letters, `(…)`, `|`, `*`, `+`, `?`, `{n}`, `{least,most}`. L stands for O (a lamp) or B (the background),
-    /// and
-    /// `.` for S, D or V, which may be named by themselves. The empty text is the word without letters. Throws Error on
-    /// anything else.
+    /// `.` for S, D or V: all of these may be named by themselves, too.
+    /// The empty text is the word without letters.
+    /// Throws Error on anything else.
     static PathSet parse(std::string_view expression);
 
     /// Every word of this set, continued by every word of `next`.

@@ -32,7 +32,7 @@ struct AreaEmission {
     bool two_sided = false;
     std::optional<TextureId> texture{};  // times this
     LampLabel label{};
-    bool unseen = false;  // no ray meets it, whatever its material: it shines, and is not there
+    bool unseen = false;  // it shines, and is not there; its material must let all rays through (opacity 0)
 };
 void visit_members(Is<AreaEmission> auto& emission, const auto& visit) {
     auto& [radiance, two_sided, texture, label, unseen] = emission;
