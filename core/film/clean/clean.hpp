@@ -14,8 +14,8 @@ struct Cleaned {
     std::vector<std::string> lacks;  // what would have made it better, one sentence each
 };
 
-/// How much time is taken: by a draft, centres are twice as far from each other as usually, which takes half the time
-/// in all; at best, twice as near, which takes two to three times as long.
+/// How much time is taken: by a draft, centres are twice as far from each other as usually, which takes a third less
+/// time; at best, twice as near, which takes three times as long.
 enum class CleanQuality { draft, usual, best };
 
 /// The note of a cleaned picture, an attribute of its file: what was done.
