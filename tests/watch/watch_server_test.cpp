@@ -40,6 +40,10 @@ protected:
         const std::vector<Rgb> pixels(whole.pixels(), Rgb{value, value, value});
         while (!board.show(whole, pixels)) std::this_thread::sleep_for(1ms);
     }
+    // A page that looks at the board just now has it refuse.
+    void tell(const std::string& state) {
+        while (!board.tell(state)) std::this_thread::sleep_for(1ms);
+    }
     std::string own() { return "127.0.0.1:" + std::to_string(server.port()); }
     // So many bytes of pixels, as far as they come.
     static std::size_t pixels_of(Visitor& visitor, std::size_t wanted) {
@@ -60,7 +64,7 @@ protected:
 };
 
 TEST_F(WatchServerTest, ServesThePageAndTheState) {
-    board.tell(R"({"t":1})");
+    tell(R"({"t":1})");
     EXPECT_THAT(get(server.port(), "/"), HasSubstr("<p>the page</p>"));
     EXPECT_THAT(get(server.port(), "/state"), HasSubstr(R"({"hello":{"graph":"box.lua"},"state":{"t":1}})"));
     EXPECT_THAT(server.url(), HasSubstr("http://" + own() + "/#right"));
@@ -105,7 +109,7 @@ TEST_F(WatchServerTest, ClosesOnWhoDoesNotFinishARequest) {
 
 TEST_F(WatchServerTest, SaysHelloThenStateLogAndPixels) {
     board.say("a line");
-    board.tell(R"({"t":7})");
+    tell(R"({"t":7})");
     show(0.5f);
     Visitor visitor(server.port());
     ASSERT_TRUE(visitor.watch(own()));
@@ -205,7 +209,7 @@ TEST_F(WatchServerTest, SaysWhyItCannotListen) {
 TEST_F(WatchServerTest, ShowsOneRunAfterTheOtherToThoseWhoStay) {
     Visitor visitor(server.port());
     ASSERT_TRUE(visitor.watch(own()));
-    board.tell(R"({"t":1})");
+    tell(R"({"t":1})");
     ASSERT_TRUE(visitor.next_with("\"t\":1"));
     const auto next = std::make_shared<WatchBoard>(Window{0, 0, 8, 8}, 1);
     next->tell(R"({"t":2})");
@@ -248,7 +252,7 @@ TEST_F(WatchServerTest, HasNobodyWaitForItsEnd) {
     auto ending = std::make_unique<WatchServer>(options(), stage());
     Visitor visitor(ending->port());
     ASSERT_TRUE(visitor.watch("127.0.0.1:" + std::to_string(ending->port())));
-    board.tell(R"({"outcome":"done"})");
+    tell(R"({"outcome":"done"})");
     const auto begun = std::chrono::steady_clock::now();
     ending.reset();
     EXPECT_LT(std::chrono::steady_clock::now() - begun, test::slowdown * 2s);

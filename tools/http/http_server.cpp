@@ -68,8 +68,8 @@ public:
             beast::get_lowest_layer(socket_).socket().set_option(
                 asio::socket_base::send_buffer_size(static_cast<int>(site_.options.send_buffer)));
         socket_.async_accept(request, [self = shared_from_this()](Fault fault) {
-            if (fault) return;
-            self->open_ = true;
+            if (fault) return self->close();
+            self->stage_ = Stage::open;
             self->read();
             self->look();
         });
@@ -77,7 +77,7 @@ public:
 
     /// Sends what there is to say, if nothing is under way.
     void look() {
-        if (!open_) return;
+        if (stage_ != Stage::open) return;
         if (sending_) {
             if (Clock::now() - since_ < std::chrono::seconds(site_.options.slow_seconds)) return;
             ++site_.dropped;
@@ -95,13 +95,14 @@ public:
         });
     }
     /// After look(): all was said, or can't be.
-    bool is_done() const { return !open_ || !sending_; }
+    bool is_done() const { return stage_ == Stage::closed || (stage_ == Stage::open && !sending_); }
 
 private:
     using Clock = std::chrono::steady_clock;
+    enum class Stage { greeting, open, closed };
 
     void close() {
-        open_ = false;
+        stage_ = Stage::closed;
         beast::get_lowest_layer(socket_).close();
     }
     void read() {
@@ -120,7 +121,8 @@ private:
     HttpSite& site_;
     beast::flat_buffer said_;
     std::string message_;
-    bool open_ = false, sending_ = false;
+    Stage stage_ = Stage::greeting;
+    bool sending_ = false;
     Clock::time_point since_{};
 };
 
