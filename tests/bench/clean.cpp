@@ -1,5 +1,6 @@
 // What cleaning brings: pictures of scenes with references by path tracing, noisy and cleaned, at several numbers of
-// samples and with three seeds. Errors are relative squares (compare.hpp) less the reference's own noise, and FLIP.
+// samples and with three seeds. Errors are relative squares (compare.hpp), of pixels and of means over blocks, less the
+// reference's own noise, and FLIP.
 // Arguments: names of scenes; without any, all of them. LIGHTNET_BENCH_SAMPLES: "4,32" instead of 4, 16, 32 and 128; of
 // 1024, if it is among them, is judged that cleaning does no harm.
 // LIGHTNET_BENCH_TRUTH: pictures of so many samples of our own take the place of the references, of which those of real
@@ -39,6 +40,7 @@ constexpr int many = 1024;  // samples, at which nothing may get worse
 constexpr double most_harm = 1.02;
 constexpr double most_untold = 1.5;       // factor between the expected and the true error, in the mean over blocks
 constexpr std::uint32_t block_side = 32;  // pixels of them
+constexpr std::uint32_t mean_side = 16;   // of blocks whose means must not be further off than the noisy picture's
 
 std::vector<int> sample_counts() {
     if (smoke()) return {4};
@@ -51,27 +53,53 @@ std::vector<int> sample_counts() {
 
 /// How far a picture is from the reference.
 struct Errors {
-    double square = 0, flip = 0, shift = 0, blocks = 0;
+    double square = 0, flip = 0, shift = 0, blocks = 0, of_means = 0;
 };
+
+Rgb mean_of_block(const Picture& picture, std::uint32_t left, std::uint32_t top) {
+    Rgb sum;
+    for (std::uint32_t y = top; y < top + mean_side; ++y)
+        for (std::uint32_t x = left; x < left + mean_side; ++x)
+            sum += picture.beauty[std::size_t{y} * picture.width + x];
+    return sum / (mean_side * mean_side);
+}
+
+double relative_square_of(const Rgb& value, const Rgb& truth) {
+    const auto square = [](float one, float other) {
+        return std::pow(double{one} - other, 2) / (double{other} * other + 0.01);
+    };
+    return (square(value.r, truth.r) + square(value.g, truth.g) + square(value.b, truth.b)) / 3;
+}
+
+// Relative square error of the means of whole blocks.
+double square_of_means(const Picture& reference, const Picture& picture) {
+    double sum = 0, blocks = 0;
+    for (std::uint32_t y = 0; y + mean_side <= reference.height; y += mean_side)
+        for (std::uint32_t x = 0; x + mean_side <= reference.width; x += mean_side, ++blocks)
+            sum += relative_square_of(mean_of_block(picture, x, y), mean_of_block(reference, x, y));
+    return sum / blocks;
+}
 
 Errors errors_of(const Picture& reference, const Picture& picture, double noise) {
     const Difference found = compare(reference, picture);
     const double shift = std::max(
         {std::abs(found.mean_ratio.r - 1), std::abs(found.mean_ratio.g - 1), std::abs(found.mean_ratio.b - 1)});
     return {std::max(1e-7, found.relative_square - noise), flip(reference.width, reference.beauty, picture.beauty).mean,
-            shift, found.block_difference};
+            shift, found.block_difference,
+            std::max(1e-8, square_of_means(reference, picture) - noise / (mean_side * mean_side))};
 }
 
 /// One number of samples of one scene, by seed.
 struct Row {
     std::vector<double> noisy, cleaned, noisy_flip, cleaned_flip, noisy_shift, cleaned_shift, noisy_blocks,
-        cleaned_blocks;
+        cleaned_blocks, means;
     std::vector<double> seconds, told, told_in_blocks, wrong;
     void add(const Errors& before, const Errors& after) {
         noisy.push_back(before.square), cleaned.push_back(after.square);
         noisy_flip.push_back(before.flip), cleaned_flip.push_back(after.flip);
         noisy_shift.push_back(before.shift), cleaned_shift.push_back(after.shift);
         noisy_blocks.push_back(before.blocks), cleaned_blocks.push_back(after.blocks);
+        means.push_back(std::sqrt(after.of_means / before.of_means));
     }
     double times() const {
         std::vector<double> all;
@@ -88,9 +116,6 @@ struct Told {
 
 Told told_by(const Picture& cleaned, const Picture& reference, double noise) {
     const auto& told = cleaned.shown.back().pixels;
-    const auto square = [](float value, float truth) {
-        return std::pow(double{value} - truth, 2) / (truth * truth + 0.01);
-    };
     double all_told = 0, all_true = 0, logs = 0, blocks = 0;
     for (std::uint32_t top = 0; top < cleaned.height; top += block_side)
         for (std::uint32_t left = 0; left < cleaned.width; left += block_side) {
@@ -98,9 +123,8 @@ Told told_by(const Picture& cleaned, const Picture& reference, double noise) {
             for (std::uint32_t y = top; y < std::min(top + block_side, cleaned.height); ++y)
                 for (std::uint32_t x = left; x < std::min(left + block_side, cleaned.width); ++x, ++pixels) {
                     const std::size_t i = std::size_t{y} * cleaned.width + x;
-                    const Rgb &value = cleaned.beauty[i], &truth = reference.beauty[i];
                     expected += double{told[i].r} * told[i].r;
-                    true_error += (square(value.r, truth.r) + square(value.g, truth.g) + square(value.b, truth.b)) / 3;
+                    true_error += relative_square_of(cleaned.beauty[i], reference.beauty[i]);
                 }
             expected /= pixels, true_error = true_error / pixels - noise;
             all_told += expected * pixels, all_true += true_error * pixels;
@@ -182,7 +206,7 @@ Row measured(const ReferenceScene& scene, const SceneFiles& files, const Truth& 
 
 /// For the judgement over all scenes.
 struct Judged {
-    std::vector<double> times, flips, shifts, harms, sums, untold;
+    std::vector<double> times, flips, shifts, means, harms, sums, untold;
 };
 
 void measure(const ReferenceScene& scene, Judged& all) {
@@ -197,13 +221,13 @@ void measure(const ReferenceScene& scene, Judged& all) {
         }
         std::printf(
             "  %s, %d samples: error %.2e to %.2e, %.1f x less (as %.0f samples); FLIP %.4f to %.4f; mean off by "
-            "%.2f %% to %.2f %%; blocks %.2f %% to %.2f %%; tells %.2f of its error, %.2f in blocks; %.1f s of a core "
-            "per "
-            "Mpixel\n",
+            "%.2f %% to %.2f %%; blocks %.2f %% to %.2f %%, their means' error times %.2f; tells %.2f of its error, "
+            "%.2f "
+            "in blocks; %.1f s of a core per Mpixel\n",
             scene.name.c_str(), samples, median(row.noisy), median(row.cleaned), row.times(), samples * row.times(),
             median(row.noisy_flip), median(row.cleaned_flip), 100 * median(row.noisy_shift),
             100 * median(row.cleaned_shift), 100 * median(row.noisy_blocks), 100 * median(row.cleaned_blocks),
-            median(row.told), median(row.told_in_blocks), median(row.seconds));
+            median(row.means), median(row.told), median(row.told_in_blocks), median(row.seconds));
         std::fflush(stdout);
         all.sums.insert(all.sums.end(), row.wrong.begin(), row.wrong.end());
         if (samples == many) all.harms.push_back(median(row.cleaned) / median(row.noisy));
@@ -212,6 +236,7 @@ void measure(const ReferenceScene& scene, Judged& all) {
         const double told = median(row.told_in_blocks);
         all.untold.push_back(std::max(told, 1 / told));
         all.flips.push_back(median(row.cleaned_flip) / median(row.noisy_flip));
+        all.means.push_back(median(row.means));
         all.shifts.push_back(std::max(0.0, median(row.cleaned_shift) - median(row.noisy_shift)));
     }
 }
@@ -229,6 +254,8 @@ void judge(const Judged& all) {
     quantity("clean.worst_scene", {*std::min_element(all.times.begin(), all.times.end())}, "times less", 1 / 1.05,
              true);
     quantity("clean.worst_flip", greatest(all.flips), "of the noisy picture's", 1, false);
+    quantity("clean.worst_means", greatest(all.means), "of the noisy picture's error, over blocks of 16 x 16 pixels", 1,
+             false);
     quantity("clean.untold", greatest(all.untold), "between expected and true error, worst scene", most_untold, false);
     figure("clean.mean_shift", greatest(all.shifts), most_shift, false);
 }
