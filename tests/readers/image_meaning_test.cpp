@@ -49,9 +49,36 @@ TEST(Exr, ShowsItsDisplayWindow) {
     EXPECT_EQ(read(windowed_exr({.data = {10, 10, 11, 11}})).colour(2, 1), (Rgb{0, 0, 0}));
 }
 
-// Six faces below each other are no map of the sky as it is read.
-TEST(Exr, IsNoCube) {
-    EXPECT_THROW(read(windowed_exr({.envmap = 1})), Error);
+TEST(Exr, OfACubeIsTheSkyAllAround) {
+    for (const auto& [size, tiled] : {std::pair{2, false}, {33, false}, {33, true}}) {
+        const Image image = read(test::cube_exr(size, tiled));
+        ASSERT_EQ(image.width, 4u * unsigned(size));
+        ASSERT_EQ(image.height, 2u * unsigned(size));
+        const float error = size == 2 ? 0.45f : 0.003f;  // of what lies evenly between pixels
+        for (std::uint32_t y = 0; y < image.height; ++y)
+            for (std::uint32_t x = 0; x < image.width; ++x) {
+                const float latitude = (0.5f - (float(y) + 0.5f) / float(image.height)) * float(M_PI);
+                const float longitude = (1 - 2 * (float(x) + 0.5f) / float(image.width)) * float(M_PI);
+                const float flat = std::cos(latitude);
+                expect_near(image.colour(x, y),
+                            {2 + flat * std::sin(longitude), 2 + std::sin(latitude), 2 + flat * std::cos(longitude)},
+                            error);
+            }
+    }
+}
+
+TEST(Exr, OfACubeHasSixSquareFaces) {
+    const Image one = read(
+        windowed_exr({.channels = {"R", "G", "B", "A"}, .data = {3, 0, 3, 5}, .display = {0, 0, 9, 9}, .envmap = 1}));
+    ASSERT_EQ(one.width, 4u);
+    ASSERT_EQ(one.height, 2u);
+    EXPECT_TRUE(one.has_alpha());
+    try {
+        read(windowed_exr({.envmap = 1}));
+        FAIL() << "two rows are no cube";
+    } catch (const Error& problem) {
+        EXPECT_THAT(problem.what(), HasSubstr("not 3 x 2 pixels"));
+    }
     EXPECT_EQ(read(windowed_exr({.envmap = 0})).colour(2, 1), (Rgb{102, 102.125f, 102.25f}));
 }
 

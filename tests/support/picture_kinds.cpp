@@ -3,6 +3,7 @@
 #include <cstdio>  // jpeglib.h needs it
 
 #include <ImfChannelList.h>
+#include <ImfEnvmap.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
@@ -12,6 +13,7 @@
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfTiledOutputFile.h>
 #include <gif_lib.h>
 #include <jpeglib.h>
 #include <webp/encode.h>
@@ -286,6 +288,41 @@ std::string chroma_exr(float red, float green, float blue) {
         Imf::RgbaOutputFile file(memory, Imf::Header(width, height), Imf::WRITE_YC);
         file.setFrameBuffer(pixels.data(), 1, width);
         file.writePixels(height);
+    }
+    return memory.bytes();
+}
+
+std::string cube_exr(int size, bool tiled) {
+    Imf::Header header(size, 6 * size);
+    for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
+    std::vector<Imath::V3f> pixels(std::size_t(6 * size * size));
+    for (int i = 0; i < 6 * size * size; ++i) {
+        const auto face = Imf::CubeMapFace(i / (size * size));
+        const Imath::V2f in_face(float(i % size), float(i / size % size));
+        const Imath::V2f place = Imf::CubeMap::pixelPosition(face, header.dataWindow(), in_face);
+        pixels[std::size_t(place.y) * std::size_t(size) + std::size_t(place.x)] =
+            Imath::V3f(2) + Imf::CubeMap::direction(face, header.dataWindow(), in_face).normalized();
+    }
+    Imf::FrameBuffer buffer;
+    const auto slice = [&](float& first) {
+        return Imf::Slice::Make(Imf::FLOAT, &first, header.dataWindow(), sizeof(Imath::V3f),
+                                sizeof(Imath::V3f) * std::size_t(size));
+    };
+    buffer.insert("R", slice(pixels[0].x)), buffer.insert("G", slice(pixels[0].y));
+    buffer.insert("B", slice(pixels[0].z));
+    ExrBytes memory;
+    if (tiled) {
+        header.setTileDescription({16, 16, Imf::MIPMAP_LEVELS});
+        Imf::TiledOutputFile file(memory, header);
+        file.setFrameBuffer(buffer);
+        file.writeTiles(0, file.numXTiles(0) - 1, 0, file.numYTiles(0) - 1, 0);
+        for (int level = 1; level < file.numLevels(); ++level)  // of other numbers: nothing reads them
+            file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
+    } else {
+        Imf::OutputFile file(memory, header);
+        file.setFrameBuffer(buffer);
+        file.writePixels(6 * size);
     }
     return memory.bytes();
 }

@@ -46,6 +46,9 @@ struct ExrPicture {
 std::string windowed_exr(const ExrPicture& picture);
 /// One colour everywhere, by brightness and fewer colours.
 std::string chroma_exr(float red, float green, float blue);
+/// The six faces of a cube, whose red, green and blue are 2 + the direction to +x, +y and +z; `tiled`: with all smaller
+/// levels.
+std::string cube_exr(int size, bool tiled);
 /// Two parts: the first has only Z, the second R, G and B as above.
 std::string parts_exr();
 

@@ -63,4 +63,8 @@ inline constexpr Primaries cie_xyz{{1, 0}, {0, 1}, {0, 0}, {1.0 / 3, 1.0 / 3}};
 /// ours.
 void turn_to_ours(const Primaries& from, std::vector<Rgb>& pixels);
 
+/// A picture of latitude and longitude, as OpenEXR lays it out (ImfEnvmap.h), of the six faces of a cube that stand
+/// below each other: `size` x 6 `size` pixels.
+Image from_cube(std::size_t size, const std::vector<Rgb>& pixels, const std::vector<float>& alpha);
+
 }  // namespace lightnet::decoders

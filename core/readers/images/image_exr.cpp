@@ -11,6 +11,7 @@
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfThreading.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
@@ -122,6 +123,8 @@ Names names_in(const Imf::ChannelList& channels) {
     throw Error("EXR: there is no channel R, and no channel Y, among several: " + all.substr(0, 200));
 }
 
+bool is_cube(const Imf::Header& header) { return Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE; }
+
 Image finished(const Imf::Header& header, const Names& names, std::vector<Rgb> pixels, std::vector<float> alpha) {
     if (names.xyz) {
         turn_to_ours(cie_xyz, pixels);
@@ -129,6 +132,12 @@ Image finished(const Imf::Header& header, const Names& names, std::vector<Rgb> p
         const auto& said = Imf::chromaticities(header);
         const auto place = [](const Imath::V2f& at) { return Primaries::Place{double{at.x}, double{at.y}}; };
         turn_to_ours({place(said.red), place(said.green), place(said.blue), place(said.white)}, pixels);
+    }
+    if (is_cube(header)) {
+        const Window faces(header.dataWindow());
+        if (faces.height == 6 * faces.width) return from_cube(static_cast<std::size_t>(faces.width), pixels, alpha);
+        throw Error(fmt::format("EXR: a cube map has six square faces below each other, not {} x {} pixels",
+                                faces.width, faces.height));
     }
     // The display window is the picture: what lies outside of it is cut away, what is missing is black.
     const Window from(header.dataWindow()), to(header.displayWindow());
@@ -197,8 +206,6 @@ Image read_chroma(Input bytes, const Names& names) {
 }
 
 void check(const Imf::Header& header, Input bytes) {
-    if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
-        throw Error("EXR: it is a cube map; 'exrenvmap' makes one of latitude and longitude of it");
     const Window data(header.dataWindow()), shown(header.displayWindow());
     check_size(data.width, data.height);
     // black all around the data takes no bytes
