@@ -54,8 +54,8 @@ inline MovingScene panning_camera() {
         <ref id="matte"/></shape>
       <shape type="cube"><transform name="to_world"><scale value="0.4"/><rotate y="1" angle="30"/>
         <translate x="0.9" y="0.4" z="0.3"/></transform><ref id="matte"/></shape>
-      <shape type="sphere"><point name="center" x="0.2" y="2" z="-0.5"/><float name="radius" value="0.25"/>
-        <emitter type="area"><rgb name="radiance" value="9,8,7"/></emitter></shape></scene>)"};
+      <shape type="sphere"><point name="center" x="0.2" y="2" z="-0.5"/><float name="radius" value="0.5"/>
+        <emitter type="area"><rgb name="radiance" value="2.5,2.2,2"/></emitter></shape></scene>)"};
 }
 
 /// What all scenes in glTF have: a floor, a camera and a lamp; nodes from 0 on are the caller's, meshes too.
@@ -201,8 +201,8 @@ AttributeBegin
   Translate -1.5 1.4 0.5
   ActiveTransform EndTime Translate 2.6 -0.5 0.4
   ActiveTransform All
-  AreaLightSource "diffuse" "rgb L" [14 13 10]
-  Shape "sphere" "float radius" 0.2
+  AreaLightSource "diffuse" "rgb L" [3.5 3 2.5]
+  Shape "sphere" "float radius" 0.4
 AttributeEnd
 AttributeBegin
   Translate 1.2 1 1
