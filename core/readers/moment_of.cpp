@@ -1,5 +1,6 @@
 #include "core/readers/moment_of.hpp"
 
+#include <algorithm>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -30,12 +31,20 @@ bool same_place(const BareLight& a, const BareLight& b) {
         a);
 }
 
+/// Readers order corners by shading normals, so what bends a lot may turn its corners round: it keeps its first order.
+bool same_corners(const Mesh& a, const Mesh& b) {
+    return std::ranges::equal(a.triangles, b.triangles, [](const auto& one, const auto& other) {
+        return one[0] == other[0] &&
+               ((one[1] == other[1] && one[2] == other[2]) || (one[1] == other[2] && one[2] == other[1]));
+    });
+}
+
 bool same_parts(const ShapeGeometry& a, const ShapeGeometry& b) {
     if (a.index() != b.index()) return false;
     if (std::holds_alternative<Curves>(a)) return same_place(a, b);  // they stand still
     const auto *mesh = std::get_if<Mesh>(&a), *other = std::get_if<Mesh>(&b);
     return !mesh || (mesh->positions.size() == other->positions.size() &&
-                     mesh->normals.size() == other->normals.size() && mesh->triangles == other->triangles);
+                     mesh->normals.size() == other->normals.size() && same_corners(*mesh, *other));
 }
 
 void take_shape(const SceneData& first, std::uint32_t i, ShapeGeometry& there, Moment& moment) {

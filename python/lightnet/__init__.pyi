@@ -666,7 +666,7 @@ class Scene(Node):
     pbrt: integer, 3.0 … 4.0
         the version of pbrt, 3 or 4, whose meaning a .pbrt file has; else what it says by itself tells
     animation: text
-        one of several animations of the file (glTF), by its name; else the first
+        one of several animations of the file (glTF): its name, its number from 1 on, or * for all at once; else the first
     time: number, in seconds
         of what moves in the file; else that of the frame, and in a still all stands as the file has it
     shutter: numbers, in frames

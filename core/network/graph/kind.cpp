@@ -136,7 +136,8 @@ Kind scene_kind() {
          .optional = true},
         {.name = "animation",
          .type = ParamType::text,
-         .help = "one of several animations of the file (glTF), by its name; else the first",
+         .help = "one of several animations of the file (glTF): its name, its number from 1 on, or * for all at once; "
+                 "else the first",
          .optional = true},
         {.name = "time",
          .help = "of what moves in the file; else that of the frame, and in a still all stands as the file has it",

@@ -53,10 +53,11 @@ public:
         if (times.width != 1 || times.numbers.empty()) return "has no keys";
         if (values.numbers.empty() || values.numbers.size() % (times.numbers.size() * parts) != 0)
             return "must have as many values as keys";
-        if (std::ranges::adjacent_find(times.numbers, std::greater_equal{}) != times.numbers.end())
+        if (std::ranges::adjacent_find(times.numbers, std::greater{}) != times.numbers.end())
             return "has keys that don't follow each other in time";
         return "";
     }
+    bool jumps() const { return std::ranges::adjacent_find(times_) != times_.end(); }
 
     std::size_t width() const { return width_; }
 
@@ -100,12 +101,26 @@ private:
     std::size_t width_;  // numbers of a value
 };
 
+/// Names and numbers of members; none: it has no pointer.
+std::vector<std::string> words_of_pointer(const At& target) {
+    std::vector<std::string> words;
+    for (const char c : target["extensions"]["KHR_animation_pointer"]["pointer"].text(""))
+        if (c == '/')
+            words.emplace_back();
+        else if (!words.empty())
+            words.back() += c;
+    return words;
+}
+
 /// What a channel moves: names and numbers of members, from the root on. Empty: nothing that is known.
 std::vector<std::string> target_of(const At& target, std::size_t nodes) {
     const std::string path = target["path"].text("");
     if (path != "pointer") {
         static const std::set<std::string, std::less<>> known{"translation", "rotation", "scale", "weights"};
-        if (!target["node"]) return {};
+        if (!target["node"]) {
+            if (!target["extensions"]) target.warn(target.path() + " names no node: it moves nothing");
+            return {};
+        }
         if (!known.contains(path)) {
             target["path"].error("must be translation, rotation, scale, weights or pointer");
             return {};
@@ -113,15 +128,10 @@ std::vector<std::string> target_of(const At& target, std::size_t nodes) {
         const auto node = target["node"].index(nodes);
         return node ? std::vector<std::string>{"nodes", std::to_string(*node), path} : std::vector<std::string>{};
     }
-    const std::string pointer = target["extensions"]["KHR_animation_pointer"]["pointer"].text("");
-    std::vector<std::string> words;
-    for (const char c : pointer)
-        if (c == '/')
-            words.emplace_back();
-        else if (!words.empty())
-            words.back() += c;
+    const auto words = words_of_pointer(target);
     static const std::set<std::string, std::less<>> may_move{"nodes", "meshes", "cameras", "materials", "extensions"};
     if (words.size() >= 2 && may_move.contains(words.front())) return words;
+    const std::string pointer = target["extensions"]["KHR_animation_pointer"]["pointer"].text("");
     target.warn(fmt::format("what is animated at '{}' stands still", pointer.substr(0, 256)));
     return {};
 }
@@ -148,6 +158,7 @@ private:
         const At nodes = document_.root()["nodes"], samplers = animation_["samplers"];
         const auto target = target_of(channel["target"], nodes.size());
         const auto sampler = channel["sampler"].index(samplers.size());
+        if (!channel["sampler"]) channel.error("names no sampler");
         if (target.empty() || !sampler) return;
         const bool of_parts = target.size() == 3 && target[0] == "nodes" && target[2] != "weights";
         if (of_parts && nodes[place_in(target[1])]["matrix"])
@@ -170,7 +181,9 @@ private:
             sampler.error(fault);
             return std::nullopt;
         }
-        return Keys(*std::move(times), *std::move(values), *between);
+        Keys keys(*std::move(times), *std::move(values), *between);
+        if (keys.jumps()) sampler.warn(sampler.path() + " has several keys at one time: it jumps there");
+        return keys;
     }
 
     At animation_;
@@ -178,18 +191,55 @@ private:
     Document& document_;
 };
 
-At chosen(const std::string& name, const Document& document) {
+/// Those that are meant: of that name, of that number from 1 on, or all.
+std::vector<At> chosen(const std::string& name, const Document& document) {
     const At all = document.root()["animations"];
     std::vector<std::string> names;
     for (std::size_t i = 0; i < all.size(); ++i) {
         names.push_back(all[i]["name"].text(""));
-        if (names.back() == name) return all[i];
+        if (names.back() == name) return {all[i]};
     }
+    if (const auto number = place_in(name); number >= 1 && number <= all.size()) return {all[number - 1]};
+    if (name == "*" && all.size() > 0) {
+        std::vector<At> each;
+        for (std::size_t i = 0; i < all.size(); ++i) each.push_back(all[i]);
+        return each;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i].empty()) names[i] = std::to_string(i + 1);
     const auto guess = did_you_mean(name, names);
     throw UserError({document.path(), 0}, "there is no animation " + in_quotes(name) +
                                               (names.empty()   ? ": the file has none"
                                                : guess.empty() ? " (there is: " + joined(names) + ")"
                                                                : guess));
+}
+
+/// Where nobody chose one.
+At first_of(const At& all) {
+    if (const auto others = all.size() - 1; others > 0) {
+        const std::string name = all[0]["name"].text("");
+        all.warn(
+            fmt::format("its first animation{} moves; the {} stand{} still (the scene's 'animation' chooses "
+                        "another, or all: '*')",
+                        name.empty() ? "" : ", " + in_quotes(name) + ",",
+                        others == 1 ? "other one" : fmt::format("{} others", others), others == 1 ? "s" : ""));
+    }
+    return all[0];
+}
+
+/// Nodes by number, whose weights a channel moves.
+void add_morphing(const At& target, const At& nodes, std::set<std::size_t>& to) {
+    if (target["path"].text("") == "weights") {
+        if (target["node"])
+            if (const auto node = target["node"].index(nodes.size())) to.insert(*node);
+        return;
+    }
+    const auto words = words_of_pointer(target);
+    if (words.size() < 3 || words[2] != "weights") return;
+    const std::size_t place = place_in(words[1]);
+    if (words[0] == "nodes") to.insert(place);
+    for (std::size_t i = 0; words[0] == "meshes" && i < nodes.size(); ++i)
+        if (nodes[i]["mesh"] && nodes[i]["mesh"].whole(~std::uint64_t{0}) == place) to.insert(i);
 }
 
 /// An accessor says it itself, as it has to.
@@ -217,11 +267,17 @@ std::vector<SceneAnimation> animations_of(Document& document) {
     return found;
 }
 
-void move_to(const Moment& moment, Document& document) {
-    const At all = document.root()["animations"];
-    if (!moment.animation && (!moment.seconds || all.size() == 0)) return;
-    const At animation = moment.animation ? chosen(*moment.animation, document) : all[0];
-    Mover(animation, moment.seconds.value_or(0), document).move();
+std::set<std::size_t> move_to(const Moment& moment, Document& document) {
+    const At all = document.root()["animations"], nodes = document.root()["nodes"];
+    std::set<std::size_t> morphing;
+    if (!moment.animation && (!moment.seconds || all.size() == 0)) return morphing;
+    const auto wanted = moment.animation ? chosen(*moment.animation, document) : std::vector{first_of(all)};
+    for (const At& animation : wanted) {
+        const At channels = animation["channels"];
+        for (std::size_t i = 0; i < channels.size(); ++i) add_morphing(channels[i]["target"], nodes, morphing);
+        Mover(animation, moment.seconds.value_or(0), document).move();
+    }
+    return morphing;
 }
 
 }  // namespace lightnet::gltf

@@ -113,7 +113,13 @@ void put_numbers(Json& there, bool is_list, const std::vector<double>& numbers) 
 
 bool Document::put(std::span<const std::string> at, const std::vector<double>& numbers) {
     Json* there = &json_;
-    for (std::size_t i = 0; there && i + 1 < at.size(); ++i) there = member(*there, at[i]);
+    for (std::size_t i = 0; there && i + 1 < at.size(); ++i) {
+        Json* next = member(*there, at[i]);
+        auto* object = std::get_if<Json::Object>(&there->data);
+        // of what a file has, parts may be unsaid: all in them is usual
+        if (!next && object && i >= 2 && !at[i].empty()) (next = &(*object)[at[i]])->data = Json::Object{};
+        there = next;
+    }
     if (!there || at.empty() || numbers.empty()) return false;
     Json* last = member(*there, at.back());
     auto* object = std::get_if<Json::Object>(&there->data);

@@ -30,8 +30,8 @@ public:
     Document& operator=(const Document&) = delete;
 
     At root() const { return {json_, path_, assets_.report(), &seen_}; }
-    /// Puts numbers where names and places of members lead, from the root on; the last one may be new. One number takes
-    /// the place of one, or of true and false. False: the way leads nowhere. Before anybody reads what is there.
+    /// Puts numbers where names and places of members lead, from the root on; the last ones may be new. One number
+    /// takes the place of one, or of true and false. False: the way leads nowhere. Before anybody reads what is there.
     bool put(std::span<const std::string> at, const std::vector<double>& numbers);
     /// Of what nobody has asked for; when all is read.
     void warn_of_unread() const;

@@ -107,8 +107,8 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
                         "its animations stand still: all is as the file has it (--frames, or the scene's 'time', "
                         "chooses another moment)");
         // DECISIONS: still-until-asked
-        move_to(moment, document);
-        add_nodes(document, assets, variant);
+        const auto morphing = move_to(moment, document);
+        add_nodes(document, assets, {variant, morphing, moment.seconds.has_value()});
         document.warn_of_unread();
         if (scene.shapes.empty() && report.good()) nothing_stands(scene, report, path);
         if (std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); }) &&

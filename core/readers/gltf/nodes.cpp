@@ -31,7 +31,14 @@ bool invertible(const Matrix& t) {
                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) > 1e-30;
 }
 
+/// What has no size now, but may have one at another time, when it must be the same thing: a millionth of it is left.
+Matrix hardly_there(Matrix t) {
+    for (std::size_t i = 0; i < 3; ++i) t.m[i][i] += 1e-6;
+    return t;
+}
+
 struct Standing {
+    std::size_t number = 0;
     At node;
     Matrix to_world;
     bool visible = true;  // it and all above it
@@ -40,6 +47,7 @@ struct Standing {
 /// How a mesh looks where it stands.
 struct Pose {
     std::size_t mesh = 0;
+    std::optional<std::size_t> node{};  // whose alone it is, as its weights move: all moments have the same order
     std::vector<double> weights{};      // of its morph targets; none: as it was made
     std::optional<std::size_t> skin{};  // that it hangs on
     friend auto operator<=>(const Pose&, const Pose&) = default;
@@ -59,10 +67,11 @@ std::vector<double> weights_of(const At& list) {
 
 class Builder {
 public:
-    Builder(Document& document, Assets& assets, const std::string& variant)
+    Builder(Document& document, Assets& assets, const Shown& shown)
         : document_(document),
           assets_(assets),
-          materials_(document, assets, variant),
+          shown_(shown),
+          materials_(document, assets, shown.variant),
           lights_(document, assets),
           nodes_(document.root()["nodes"]) {}
 
@@ -70,11 +79,12 @@ public:
         const auto standing = all_nodes();
         const std::size_t meshes = document_.root()["meshes"].size();
         std::map<Pose, std::vector<Place>> places;
-        for (const auto& [node, to_world, visible] : standing) {
+        for (const auto& [number, node, to_world, visible] : standing) {
             if (assets_.report().full()) return;
             if (node["mesh"])
                 if (const auto mesh = node["mesh"].index(meshes); mesh && visible) {
-                    const Pose pose = pose_of(node, *mesh);
+                    Pose pose = pose_of(node, *mesh);
+                    if (shown_.morphing.contains(number)) pose.node = number;
                     put(node, to_world, pose, places[pose]);
                 }
             if (node["camera"]) camera(node["camera"], to_world, node["name"].text(""));
@@ -102,15 +112,15 @@ private:
             if (!which) return;
             if (seen[*which]) return index.error(fmt::format("names node {}, which stands elsewhere already", *which));
             seen[*which] = true;
-            waiting.push_back({nodes_[*which], parent, visible});
+            waiting.push_back({*which, nodes_[*which], parent, visible});
         };
         roots(add);
         while (!waiting.empty() && !assets_.report().full()) {
-            const auto [node, parent, shown] = waiting.back();
+            const auto [number, node, parent, shown] = waiting.back();
             waiting.pop_back();
             const Matrix to_world = parent * matrix_of(node);
             const bool visible = shown && node["extensions"]["KHR_node_visibility"]["visible"].boolean(true);
-            result.push_back({node, to_world, visible});
+            result.push_back({number, node, to_world, visible});
             const At children = node["children"];
             for (std::size_t i = children.size(); i-- > 0;) add(children[i], to_world, visible);
         }
@@ -123,6 +133,9 @@ private:
         const At chosen = document_.root()["scene"];
         if (scenes.size()) {
             const At list = scenes[chosen ? chosen.index(scenes.size()).value_or(0) : 0]["nodes"];
+            if (const auto others = scenes.size() - 1; others > 0)
+                scenes.warn(fmt::format("{} other scene{} of the file {} left out", others, others == 1 ? "" : "s",
+                                        others == 1 ? "is" : "are"));
             for (std::size_t i = list.size(); i-- > 0;) add(list[i], Matrix{}, true);
             return;
         }
@@ -142,7 +155,12 @@ private:
 
     Pose pose_of(const At& node, std::size_t mesh) {
         const At own = node["weights"], usual = document_.root()["meshes"][mesh]["weights"];
-        Pose pose{mesh, weights_of(own ? own : usual)};
+        const At weights = own ? own : usual, made = document_.root()["meshes"][mesh];
+        const std::size_t targets = made["primitives"][0]["targets"].size();
+        if (weights.size() > 0 && weights.size() != targets)
+            node.warn(fmt::format("{} weight{} for a mesh with {} morph target{}", weights.size(),
+                                  weights.size() == 1 ? "" : "s", targets, targets == 1 ? "" : "s"));
+        Pose pose{mesh, {}, weights_of(weights)};
         if (node["skin"]) pose.skin = node["skin"].index(document_.root()["skins"].size());
         return pose;
     }
@@ -155,7 +173,8 @@ private:
             return;
         }
         const At many = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
-        const auto place = [&](const Matrix& t) {
+        const auto place = [&](Matrix t) {
+            if (shown_.moves && !invertible(t)) t = hardly_there(t);
             if (!invertible(t)) return node.warn("meshes without a size are left out");
             places.push_back({t, node["name"].text("")});
         };
@@ -291,6 +310,7 @@ private:
 
     Document& document_;
     Assets& assets_;
+    const Shown& shown_;
     Materials materials_;
     Lights lights_;
     std::vector<Depth> depths_;  // of the scene's cameras
@@ -301,8 +321,6 @@ private:
 
 }  // namespace
 
-void add_nodes(Document& document, Assets& assets, const std::string& variant) {
-    Builder(document, assets, variant).build();
-}
+void add_nodes(Document& document, Assets& assets, const Shown& shown) { Builder(document, assets, shown).build(); }
 
 }  // namespace lightnet::gltf
