@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/film/clean/changes.hpp"
 
@@ -32,7 +33,7 @@ public:
         const SumChanges of_sum = change_sum();
         Choice choice = choose(noisy_.guide, area_, of_sum);
         take_choice(choice);
-        CleanArea area{core_, core_width(), core_height(), {}, {}};
+        CleanArea area{core_, core_width(), core_height(), {}, {}, {}, {}};
         each_of_core([&](std::size_t, std::size_t x, std::size_t y) {
             area.expected.push_back(choice.expected[y * area_side + x]);
         });
@@ -40,16 +41,13 @@ public:
         for (std::size_t l = 0; l < work.size(); ++l) take_layer(l, work[l].halves);
         change_layers(work);
         for (std::size_t l = 0; l < work.size(); ++l) area.layers.push_back(cleaned(pixels_of(l), work[l].changes));
+        if (noisy_.guide.halves) note_moves(of_sum, choice, area);
         return area;
     }
 
 private:
-    std::uint32_t core_width() const {
-        return static_cast<std::uint32_t>(std::min<std::int64_t>(core_side, picture_.width - core_.x));
-    }
-    std::uint32_t core_height() const {
-        return static_cast<std::uint32_t>(std::min<std::int64_t>(core_side, picture_.height - core_.y));
-    }
+    std::uint32_t core_width() const { return CoreAxis(picture_.width, picture_.x).pixels_from(core_.x); }
+    std::uint32_t core_height() const { return CoreAxis(picture_.height, picture_.y).pixels_from(core_.y); }
 
     // Calls action(pixel, x, y); the last two are in the area.
     template <class Action>
@@ -183,14 +181,9 @@ private:
         }
     }
 
-    // What would be darker than black is black.
     std::vector<Rgb> cleaned(const std::vector<Rgb>& pixels, const AreaChannels& changes) const {
         std::vector<Rgb> clean;
         clean.reserve(std::size_t{core_width()} * core_height());
-        const auto lit = [](float value, float change) {
-            const float sum = value + change;
-            return value >= 0 && sum < 0 ? 0 : sum;
-        };
         each_of_core([&](std::size_t pixel, std::size_t x, std::size_t y) {
             const auto i = AreaChannels::index(std::int64_t(x), std::int64_t(y));
             const Rgb value = pixels[pixel];
@@ -198,6 +191,37 @@ private:
                 {lit(value.r, changes.of(0)[i]), lit(value.g, changes.of(1)[i]), lit(value.b, changes.of(2)[i])});
         });
         return clean;
+    }
+
+    // Of the sum by what was chosen pixel by pixel, which is nearly what was done.
+    void note_moves(const SumChanges& of_sum, const Choice& choice, CleanArea& area) const {
+        Moved moved(picture_, core_, core_width(), core_height(), area.layers.size());
+        std::size_t next = 0;
+        each_of_core([&](std::size_t pixel, std::size_t x, std::size_t y) {
+            const Place at{area_.x + std::int64_t(x), area_.y + std::int64_t(y)};
+            const std::size_t cell = moved.grid.cell_of(at.x, at.y), i = y * area_side + x,
+                              in_area = AreaChannels::index(std::int64_t(x), std::int64_t(y));
+            for (std::size_t c = 0; c < 3; ++c) {
+                moved.planes[Moved::apart_of(c)][cell] +=
+                    *noisy_.guide.half[0][c].at(at.x, at.y) - *noisy_.guide.half[1][c].at(at.x, at.y);
+                for_filters([&](std::size_t half, std::size_t f) {
+                    moved.planes[Moved::change_of(half, c)][cell] +=
+                        choice.parts[f][i] * of_sum[half][f].of(c)[in_area];
+                });
+            }
+            float bright = 0;
+            for (std::size_t l = 0; l < area.layers.size(); ++l) {
+                const Rgb clean = area.layers[l][next], lost = pixels_of(l)[pixel] - clean;
+                bright += sound(clean.r + clean.g + clean.b);
+                moved.planes[Moved::lost_of(l, 0)][cell] += sound(lost.r);
+                moved.planes[Moved::lost_of(l, 1)][cell] += sound(lost.g);
+                moved.planes[Moved::lost_of(l, 2)][cell] += sound(lost.b);
+            }
+            area.brightness.push_back(std::max(0.0f, bright / 3) + dim);
+            moved.planes[Moved::brightness][cell] += area.brightness.back();
+            ++next;
+        });
+        area.moved = std::move(moved);
     }
 
     const Picture& picture_;

@@ -5,6 +5,7 @@
 
 #include "core/film/clean/choice.hpp"
 #include "core/film/clean/guide.hpp"
+#include "core/film/clean/moved.hpp"
 #include "core/film/picture.hpp"
 
 namespace lightnet::cleaning {
@@ -23,6 +24,8 @@ struct CleanArea {
     std::uint32_t width = 0, height = 0;
     std::vector<std::vector<Rgb>> layers;  // of the beauty, where the picture has no layers; row by row
     std::vector<SquaredError> expected;
+    Moved moved;                    // where the samples are in two halves
+    std::vector<float> brightness;  // of each pixel, likewise
 };
 
 /// Makes the core of the area that begins `rim` to the left of and above `core`. Depends on nothing but pixels up to

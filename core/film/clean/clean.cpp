@@ -9,6 +9,7 @@
 #include "core/film/clean/area.hpp"
 #include "core/film/clean/guide.hpp"
 #include "core/film/clean/pieces.hpp"
+#include "core/film/clean/returned.hpp"
 #include "core/film/clean_layers.hpp"
 
 namespace lightnet {
@@ -16,6 +17,7 @@ namespace {
 
 using cleaning::CleanArea;
 using cleaning::Guide;
+using cleaning::Moved;
 using cleaning::Noisy;
 
 // Of each layer; none, where some have none.
@@ -37,9 +39,11 @@ void drop_what_is_used_up(Picture& picture) {
 std::string words_for(const Noisy& noisy) {
     return fmt::format(
         "first-order regressions of all layers with the same weights, by {} and {} features, every {} pixels; "
-        "neighbours up to {} pixels away, alike within {} and {} deviations of the noise",
+        "neighbours up to {} pixels away, alike within {} and {} deviations of the noise{}",
         noisy.guide.halves ? "halves of the samples" : "noise that neighbours tell of", noisy.guide.features.size(),
-        noisy.step, cleaning::reach, cleaning::tolerance[0], cleaning::tolerance[1]);
+        noisy.step, cleaning::reach, cleaning::tolerance[0], cleaning::tolerance[1],
+        noisy.guide.halves ? fmt::format("; what cells of {0} x {0} pixels lost is returned", cleaning::cell_side)
+                           : "");
 }
 
 // Over more pixels than choices are made by, as the product of two halves' changes is nearly all noise. Of what it says
@@ -76,7 +80,7 @@ std::vector<std::string> lacks_of(const Picture& noisy, const Guide& guide) {
     if (noisy.whole_width)
         lacks.emplace_back(
             fmt::format("it is a crop: up to {} pixels from its border it is not what the whole picture would be there",
-                        cleaning::influence));
+                        cleaning::influence + cleaning::return_reach));
     if (!guide.halves) lacks.emplace_back("its samples are not in two halves, so its noise is guessed from neighbours");
     if (guide.features.empty())
         lacks.emplace_back("it says nothing of surfaces (albedo, normal, depth), so edges and textures may blur");
@@ -86,11 +90,21 @@ std::vector<std::string> lacks_of(const Picture& noisy, const Guide& guide) {
 // So many areas that all cores are busy, and few enough for what is clean of them to be held beside the picture.
 constexpr std::size_t areas_at_once = 16;
 
-void put_into(Picture& picture, std::vector<cleaning::SquaredError>& expected, const CleanArea& area) {
+/// What is known of the whole picture when its areas are clean.
+struct Found {
+    std::vector<cleaning::SquaredError> expected;
+    std::vector<float> brightness;
+    Moved moved;
+};
+
+void put_into(Picture& picture, Found& found, const CleanArea& area) {
+    found.moved.add(area.moved);
     for (std::size_t y = 0; y < area.height; ++y) {
         const std::size_t from = y * area.width, to = (static_cast<std::size_t>(area.place.y) + y) * picture.width +
                                                       static_cast<std::size_t>(area.place.x);
-        std::copy_n(area.expected.begin() + from, area.width, expected.begin() + to);
+        std::copy_n(area.expected.begin() + from, area.width, found.expected.begin() + to);
+        if (!area.brightness.empty())
+            std::copy_n(area.brightness.begin() + from, area.width, found.brightness.begin() + to);
         for (std::size_t l = 0; l < area.layers.size(); ++l)
             std::copy_n(area.layers[l].begin() + from, area.width,
                         (picture.layers.empty() ? picture.beauty : picture.layers[l].pixels).begin() + to);
@@ -99,9 +113,11 @@ void put_into(Picture& picture, std::vector<cleaning::SquaredError>& expected, c
 
 // In place, some rows of areas after the others: pixels are still noisy when the rows below look at them.
 std::vector<cleaning::SquaredError> clean_areas(Picture& picture, const Noisy& noisy) {
-    std::vector<cleaning::SquaredError> expected(std::size_t{picture.width} * picture.height);
-    const std::size_t across = (picture.width + cleaning::core_side - 1) / cleaning::core_side;
-    const std::size_t down = (picture.height + cleaning::core_side - 1) / cleaning::core_side;
+    const std::size_t pixels = std::size_t{picture.width} * picture.height;
+    Found found{std::vector<cleaning::SquaredError>(pixels), std::vector<float>(pixels),
+                Moved(picture, {}, picture.width, picture.height, std::max<std::size_t>(1, picture.layers.size()))};
+    const cleaning::CoreAxis columns(picture.width, picture.x), lines(picture.height, picture.y);
+    const std::size_t across = columns.cores(), down = lines.cores();
     const std::size_t rows = (areas_at_once + across - 1) / across;
     static_assert(cleaning::core_side > cleaning::rim + cleaning::halo, "areas look no further than the next row");
     std::vector<CleanArea> last;
@@ -111,15 +127,15 @@ std::vector<cleaning::SquaredError> clean_areas(Picture& picture, const Noisy& n
             now.size(),
             [&](std::size_t first, std::size_t end) {
                 for (std::size_t i = first; i < end; ++i)
-                    now[i] = clean_area(noisy, {std::int64_t(i % across * cleaning::core_side),
-                                                std::int64_t((row + i / across) * cleaning::core_side)});
+                    now[i] = clean_area(noisy, {columns.first(i % across), lines.first(row + i / across)});
             },
             1);
-        for (const auto& area : last) put_into(picture, expected, area);
+        for (const auto& area : last) put_into(picture, found, area);
         last = std::move(now);
     }
-    for (const auto& area : last) put_into(picture, expected, area);
-    return expected;
+    for (const auto& area : last) put_into(picture, found, area);
+    if (noisy.guide.halves) return_light(std::move(found.moved), found.brightness, picture);
+    return std::move(found.expected);
 }
 
 std::uint32_t pixels_between_centres(CleanQuality quality) {

@@ -37,7 +37,7 @@ inline constexpr const char* clean_error = "clean_error";
 /// other half (Rousselle et al. 2012), smoothed.
 ///
 /// On all cores, with the same bytes on any number of them, and on any machine. A crop is cleaned by what is in it. The
-/// picture is cleaned in place: beside it there are some 130 bytes for each pixel, whatever the number of layers.
+/// picture is cleaned in place: beside it there are some 140 bytes for each pixel, whatever the number of layers.
 Cleaned clean(Picture picture, CleanQuality quality = CleanQuality::usual);
 
 }  // namespace lightnet

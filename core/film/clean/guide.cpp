@@ -13,10 +13,7 @@
 namespace lightnet::cleaning {
 namespace {
 
-constexpr float largest = 1e15f;  // squares of it are numbers, too
 constexpr std::size_t rows_at_once = 16;
-
-float sound(float value) { return std::isfinite(value) ? std::clamp(value, -largest, largest) : 0; }
 
 float channel_of(const Rgb& colour, std::size_t channel) {
     return channel == 0 ? colour.r : channel == 1 ? colour.g : colour.b;

@@ -1,6 +1,8 @@
 // The guide by which a picture is cleaned: its colours in two halves, their noise, and features of what is seen.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -16,6 +18,10 @@ namespace lightnet::cleaning {
 struct Feature {
     Sheet value, noise;
 };
+
+/// What is no number, or more than weights can be made of, counts as 0 or as the largest.
+inline constexpr float largest = 1e15f;  // squares of it are numbers, too
+inline float sound(float value) { return std::isfinite(value) ? std::clamp(value, -largest, largest) : 0; }
 
 /// As many as these: albedo and normal have three each, the depth is one.
 inline constexpr std::size_t most_features = 7;
