@@ -227,8 +227,8 @@ TEST(GltfAnimations, AreChosenByNameOrNumberOrAllAtOnce) {
 
 TEST(GltfAnimations, SayThatTheOthersStandStill) {
     EXPECT_THAT(warnings_of(at(choices(), three, "1")),
-                HasSubstr("its first animation, 'up', moves; the 2 others stand still (the scene's 'animation' chooses "
-                          "another, or all: '*')"));
+                HasSubstr("its first animation, 'up', moves; the 2 others stand still (--animation, or the "
+                          "scene's 'animation', chooses another, or all: '*')"));
     EXPECT_THAT(warnings_of(at(choices(), three, "1", "up")), Not(HasSubstr("others stand still")));
 }
 

@@ -11,11 +11,13 @@
 #include "core/run/assembly/load_scene.hpp"
 #include "nodes/standard_nodes.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/gltf_text.hpp"
 #include "tools/cli/launcher.hpp"
 
 namespace lightnet::render_test {
 namespace {
 
+using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -75,6 +77,33 @@ TEST(Render, BlursASequenceOfFilesTowardsTheNext) {
     const auto& motion = lightnet.runs.at(0).read->scene.motion;
     ASSERT_EQ(motion.shapes.size(), 1U);
     EXPECT_FLOAT_EQ(std::get<Mesh>(motion.shapes[0].later.back()).positions.at(0).x, 2) << "half a frame";
+}
+
+TEST(Render, ChoosesOneOfTheAnimationsThatSceneInfoLists) {
+    Bench lightnet;
+    test::GltfText text = test::triangle_text();
+    text.vectors("SCALAR", {0, 2});
+    text.vectors("VEC3", {0, 0, 0, 0, 0, 8});
+    const auto one = [](const char* name) {
+        return std::string(R"({"name":")") + name + R"(","samplers":[{"input":1,"output":2}],
+            "channels":[{"sampler":0,"target":{"node":0,"path":")" +
+               (*name ? "translation" : "scale") + R"("}}]})";
+    };
+    const auto scene = lightnet.write(
+        "walk.glb", text.file(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                              R"("animations":[)" +
+                              one("") + "," + one("walk") + "],"));
+    EXPECT_EQ(lightnet({"scene", "info", scene}), 0) << lightnet.err;
+    EXPECT_THAT(lightnet.out, AllOf(HasSubstr("animation 1    2 s\n"), HasSubstr("animation 2    walk, 2 s\n")));
+    for (const char* name : {"walk", "2"})
+        EXPECT_EQ(lightnet({"render", scene, "--animation", name, "--shutter", "360", "-o", "x.exr"}), 7)
+            << lightnet.err;
+    for (const auto& run : lightnet.runs) {
+        const auto& later = run.read->scene.motion.shapes.at(0).later.back();
+        EXPECT_FLOAT_EQ(std::get<Mesh>(later).positions.at(0).z, 4 / 24.f) << "in a frame";
+    }
+    EXPECT_EQ(lightnet({"render", scene, "--animation", "run", "-o", "x.exr"}), 2);
+    EXPECT_THAT(lightnet.err, HasSubstr("there is no animation 'run' (there is: 1, walk)"));
 }
 
 TEST(Render, MovesTheCameraOfAGraphBetweenItsFrames) {

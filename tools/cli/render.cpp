@@ -49,6 +49,7 @@ void override_scene(Node& scene, const RenderedScene& wanted) {
             scene.params["environment"] = {from_anywhere(wanted.environment)};
     }
     if (wanted.two_sided) scene.params["two_sided"] = {true};
+    if (!wanted.animation.empty()) scene.params["animation"] = {wanted.animation};
     if (!(wanted.shutter > 0)) return;
     scene.params["shutter"] = {Table{{{0.0}, {wanted.shutter / 360}}, {}}};
     scene.params.try_emplace("fps", Value{wanted.fps > 0 ? wanted.fps : usual_fps});

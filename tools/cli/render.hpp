@@ -33,6 +33,7 @@ struct RenderedScene {
     GraphFrame frame{};                            // which is rendered
     double fps = 0;                                // 0: as a graph file says, or 24
     double shutter = 0;                            // degrees; 0: each frame is an instant
+    std::string animation{};                       // which of the file's; "": the first
 };
 
 /// The graph that lights the scene in the way of its `lighting`; the scenes of a graph file are replaced by this one.

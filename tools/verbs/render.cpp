@@ -56,6 +56,9 @@ void describe_render(CLI::App& app, RenderOptions& options) {
                    "motion blur: how long the shutter is open, of the 360 degrees of a frame: 180 is usual")
         ->type_name("DEGREES")
         ->check(CLI::Range(0.0, 360.0));
+    app.add_option("--animation", scene.animation,
+                   "one of several animations of the scene's file (glTF), which scene info lists; *: all at once")
+        ->type_name("NAME|N|*");
     add_constants(app, scene.constants,
                   "define a variable of the scene file, or a constant of GRAPH.lua (may be repeated)");
     add_frames(app, options.frames);

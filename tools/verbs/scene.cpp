@@ -63,8 +63,11 @@ void line(std::ostream& out, std::string_view what, const std::string& text) {
 void print_names(const SceneData& scene, std::ostream& out) {
     for (std::size_t i = 0; scene.cameras.size() > 1 && i < scene.cameras.size(); ++i)
         line(out, "camera " + std::to_string(i + 1), scene.cameras[i].name);
-    for (const auto& [name, seconds] : scene.animations)
-        line(out, "animation", fmt::format("{}{}{:.4g} s", name, name.empty() ? "" : ", ", seconds));
+    for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+        const auto& [name, seconds] = scene.animations[i];
+        line(out, scene.animations.size() > 1 ? fmt::format("animation {}", i + 1) : "animation",
+             fmt::format("{}{}{:.4g} s", name, name.empty() ? "" : ", ", seconds));
+    }
     if (const auto& shutter = scene.shutter; shutter && !scene.animations.empty() && shutter->close > shutter->open)
         line(out, "shutter", fmt::format("open from {:.4g} s to {:.4g} s", shutter->open, shutter->close));
     for (const auto& [name, shown] : scene.variants) line(out, "variant", name + (shown ? " (shown)" : ""));

@@ -219,8 +219,8 @@ At first_of(const At& all) {
     if (const auto others = all.size() - 1; others > 0) {
         const std::string name = all[0]["name"].text("");
         all.warn(
-            fmt::format("its first animation{} moves; the {} stand{} still (the scene's 'animation' chooses "
-                        "another, or all: '*')",
+            fmt::format("its first animation{} moves; the {} stand{} still (--animation, or the scene's 'animation', "
+                        "chooses another, or all: '*')",
                         name.empty() ? "" : ", " + in_quotes(name) + ",",
                         others == 1 ? "other one" : fmt::format("{} others", others), others == 1 ? "s" : ""));
     }
