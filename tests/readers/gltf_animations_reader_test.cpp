@@ -232,6 +232,16 @@ TEST(GltfAnimations, SayThatTheOthersStandStill) {
     EXPECT_THAT(warnings_of(at(choices(), three, "1", "up")), Not(HasSubstr("others stand still")));
 }
 
+TEST(GltfAnimations, SayWhereTheyEnd) {
+    const auto text = keyed({0.5f, 1.5f}, "VEC3", {0, 0, 0, 0, 0, 2});
+    EXPECT_THAT(warnings_of(moved(text, {1, 2}, "1.5")), Not(HasSubstr("ends at")));
+    EXPECT_THAT(warnings_of(moved(text, {1, 2}, "1.6")),
+                HasSubstr("its animation ends at 1.5 s: behind that it stands still (a graph may repeat it: "
+                          "'time = time % 1.5' in its scene)"));
+    const auto pose = keyed({0}, "VEC3", {0, 0, 2});
+    EXPECT_THAT(warnings_of(moved(pose, {1, 2}, "1")), Not(HasSubstr("ends at")));
+}
+
 // What joints stand in need not be in the scene.
 TEST(GltfAnimations, MoveJointsOutsideOfTheScene) {
     GltfText text = keyed({0, 2}, "VEC3", {0, 0, 0, 0, 0, 6});

@@ -252,18 +252,32 @@ double last_key(const At& input, Document& document) {
     return times && !times->numbers.empty() ? double(times->numbers.back()) : 0;
 }
 
+double length_of(const At& animation, Document& document) {
+    const At samplers = animation["samplers"];
+    double length = 0;
+    for (std::size_t i = 0; i < samplers.size(); ++i)
+        length = std::max(length, last_key(samplers[i]["input"], document));
+    return length;
+}
+
+/// A pose, which has no length, is one at all times.
+void warn_behind_end(const std::vector<At>& wanted, double seconds, Document& document) {
+    double end = 0;
+    for (const At& animation : wanted) end = std::max(end, length_of(animation, document));
+    if (end > 0 && seconds > end)
+        wanted.front().warn(
+            fmt::format("its animation ends at {:.4g} s: behind that it stands still (a graph may repeat it: "
+                        "'time = time % {:.4g}' in its scene)",
+                        end, end));
+}
+
 }  // namespace
 
 std::vector<SceneAnimation> animations_of(Document& document) {
-    const At all = document.root()["animations"], accessors = document.root()["accessors"];
+    const At all = document.root()["animations"];
     std::vector<SceneAnimation> found;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        SceneAnimation animation{all[i]["name"].text(""), 0};
-        const At samplers = all[i]["samplers"];
-        for (std::size_t j = 0; j < samplers.size(); ++j)
-            animation.seconds = std::max(animation.seconds, last_key(samplers[j]["input"], document));
-        found.push_back(std::move(animation));
-    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+        found.push_back({all[i]["name"].text(""), length_of(all[i], document)});
     return found;
 }
 
@@ -272,6 +286,7 @@ std::set<std::size_t> move_to(const Moment& moment, Document& document) {
     std::set<std::size_t> morphing;
     if (!moment.animation && (!moment.seconds || all.size() == 0)) return morphing;
     const auto wanted = moment.animation ? chosen(*moment.animation, document) : std::vector{first_of(all)};
+    warn_behind_end(wanted, moment.seconds.value_or(0), document);
     for (const At& animation : wanted) {
         const At channels = animation["channels"];
         for (std::size_t i = 0; i < channels.size(); ++i) add_morphing(channels[i]["target"], nodes, morphing);
