@@ -147,22 +147,22 @@ private:
     // What is beyond the picture, or not finite, counts as black.
     void take_layer(std::size_t layer, std::array<AreaChannels, 2>& halves) const {
         constexpr auto r = std::int64_t{halo};
-        const auto& all = pixels_of(layer);
         const auto x_first = std::max<std::int64_t>(0, area_.x - r),
                    x_end = std::min<std::int64_t>(picture_.width, area_.x + area_side + r),
                    y_end = std::min<std::int64_t>(picture_.height, area_.y + area_side + r);
-        for (auto y = std::max<std::int64_t>(0, area_.y - r); y < y_end; ++y)
-            for (auto x = x_first; x < x_end; ++x) {
-                const auto pixel = static_cast<std::size_t>(y) * picture_.width + static_cast<std::size_t>(x);
-                const Rgb second = noisy_.halves.empty() ? 0.5f * all[pixel] : noisy_.halves[layer]->pixels[pixel];
-                put_pixel(halves[0], x, y, 2 * (all[pixel] - second));
-                put_pixel(halves[1], x, y, 2 * second);
+        for (auto y = std::max<std::int64_t>(0, area_.y - r); y < y_end; ++y) {
+            const auto pixel = static_cast<std::size_t>(y) * picture_.width + static_cast<std::size_t>(x_first);
+            const Rgb* const all = pixels_of(layer).data() + pixel;
+            const Rgb* const second = noisy_.halves.empty() ? nullptr : noisy_.halves[layer]->pixels.data() + pixel;
+            const std::size_t to = AreaChannels::index(x_first - area_.x, y - area_.y);
+            float *const r0 = halves[0].of(0) + to, *const g0 = halves[0].of(1) + to, *const b0 = halves[0].of(2) + to;
+            float *const r1 = halves[1].of(0) + to, *const g1 = halves[1].of(1) + to, *const b1 = halves[1].of(2) + to;
+            for (std::size_t x = 0; x < static_cast<std::size_t>(x_end - x_first); ++x) {
+                const Rgb half = second ? second[x] : 0.5f * all[x], one = 2 * (all[x] - half), other = 2 * half;
+                if (finite(one)) r0[x] = one.r, g0[x] = one.g, b0[x] = one.b;
+                if (finite(other)) r1[x] = other.r, g1[x] = other.g, b1[x] = other.b;
             }
-    }
-    void put_pixel(AreaChannels& channels, std::int64_t x, std::int64_t y, const Rgb& value) const {
-        if (!finite(value)) return;
-        const auto i = AreaChannels::index(x - area_.x, y - area_.y);
-        channels.of(0)[i] = value.r, channels.of(1)[i] = value.g, channels.of(2)[i] = value.b;
+        }
     }
 
     // A row of centres for all layers, then the next one: regressions are brought from afar only once.
@@ -193,35 +193,48 @@ private:
         return clean;
     }
 
-    // Of the sum by what was chosen pixel by pixel, which is nearly what was done.
     void note_moves(const SumChanges& of_sum, const Choice& choice, CleanArea& area) const {
-        Moved moved(picture_, core_, core_width(), core_height(), area.layers.size());
-        std::size_t next = 0;
-        each_of_core([&](std::size_t pixel, std::size_t x, std::size_t y) {
-            const Place at{area_.x + std::int64_t(x), area_.y + std::int64_t(y)};
-            const std::size_t cell = moved.grid.cell_of(at.x, at.y), i = y * area_side + x,
-                              in_area = AreaChannels::index(std::int64_t(x), std::int64_t(y));
-            for (std::size_t c = 0; c < 3; ++c) {
-                moved.planes[Moved::apart_of(c)][cell] +=
-                    *noisy_.guide.half[0][c].at(at.x, at.y) - *noisy_.guide.half[1][c].at(at.x, at.y);
-                for_filters([&](std::size_t half, std::size_t f) {
-                    moved.planes[Moved::change_of(half, c)][cell] +=
-                        choice.parts[f][i] * of_sum[half][f].of(c)[in_area];
-                });
+        area.moved = Moved(picture_, core_, area.width, area.height, area.layers.size());
+        area.brightness.resize(std::size_t{area.width} * area.height);
+        for (std::size_t y = 0; y < area.height; ++y) {
+            note_row_of_sum(of_sum, choice, y, area.moved);
+            note_row_of_layers(y, area);
+        }
+    }
+    // By what was chosen pixel by pixel, which is nearly what was done.
+    void note_row_of_sum(const SumChanges& of_sum, const Choice& choice, std::size_t y, Moved& moved) const {
+        const Place left{core_.x, core_.y + std::int64_t(y)};
+        const float* const parts[filters] = {choice.parts[0].data() + (rim + y) * area_side + rim,
+                                             choice.parts[1].data() + (rim + y) * area_side + rim};
+        const std::size_t at = AreaChannels::index(rim, std::int64_t(rim + y));
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float *const first = noisy_.guide.half[0][c].at(left.x, left.y), *const second =
+                                                                                       noisy_.guide.half[1][c].at(
+                                                                                           left.x, left.y);
+            moved.add_row(Moved::apart_of(c), left, core_width(), [=](auto x) { return first[x] - second[x]; });
+            for (const std::size_t half : {0, 1}) {
+                const float *const strict = of_sum[half][0].of(c) + at, *const lax = of_sum[half][1].of(c) + at;
+                moved.add_row(Moved::change_of(half, c), left, core_width(),
+                              [=](auto x) { return parts[0][x] * strict[x] + parts[1][x] * lax[x]; });
             }
-            float bright = 0;
-            for (std::size_t l = 0; l < area.layers.size(); ++l) {
-                const Rgb clean = area.layers[l][next], lost = pixels_of(l)[pixel] - clean;
-                bright += sound(clean.r + clean.g + clean.b);
-                moved.planes[Moved::lost_of(l, 0)][cell] += sound(lost.r);
-                moved.planes[Moved::lost_of(l, 1)][cell] += sound(lost.g);
-                moved.planes[Moved::lost_of(l, 2)][cell] += sound(lost.b);
-            }
-            area.brightness.push_back(std::max(0.0f, bright / 3) + dim);
-            moved.planes[Moved::brightness][cell] += area.brightness.back();
-            ++next;
-        });
-        area.moved = std::move(moved);
+        }
+    }
+    void note_row_of_layers(std::size_t y, CleanArea& area) const {
+        const Place left{core_.x, core_.y + std::int64_t(y)};
+        float* const bright = area.brightness.data() + y * area.width;
+        for (std::size_t l = 0; l < area.layers.size(); ++l) {
+            const Rgb* const clean = area.layers[l].data() + y * area.width;
+            const Rgb* const noisy = pixels_of(l).data() + static_cast<std::size_t>(left.y) * picture_.width +
+                                     static_cast<std::size_t>(left.x);
+            for (std::size_t x = 0; x < area.width; ++x) bright[x] += sound(clean[x].r + clean[x].g + clean[x].b);
+            const auto add = [&](std::size_t c, float Rgb::*channel) {
+                area.moved.add_row(Moved::lost_of(l, c), left, area.width,
+                                   [=](auto x) { return sound(noisy[x].*channel - clean[x].*channel); });
+            };
+            add(0, &Rgb::r), add(1, &Rgb::g), add(2, &Rgb::b);
+        }
+        for (std::size_t x = 0; x < area.width; ++x) bright[x] = std::max(0.0f, bright[x] / 3) + dim;
+        area.moved.add_row(Moved::brightness, left, area.width, [=](auto x) { return bright[x]; });
     }
 
     const Picture& picture_;

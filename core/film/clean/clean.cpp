@@ -56,10 +56,10 @@ PictureLayer error_layer(const std::vector<cleaning::SquaredError>& expected, st
     constexpr float untold = 1.2f;
     constexpr float pixels = (2 * radius + 1) * (2 * radius + 1);
     const auto smooth = [&](float cleaning::SquaredError::*part) {
-        cleaning::Sheet sheet(width, height);
-        for (std::uint32_t y = 0; y < height; ++y)
-            for (std::uint32_t x = 0; x < width; ++x) *sheet.at(x, y) = expected[std::size_t{y} * width + x].*part;
-        return cleaning::smoothed(sheet, width, height, radius);
+        return cleaning::smoothed(width, height, radius, [&](std::int64_t y, float* row) {
+            for (std::size_t x = 0; x < width; ++x) row[x] = expected[static_cast<std::size_t>(y) * width + x].*part;
+            return row;
+        });
     };
     const auto all = smooth(&cleaning::SquaredError::all), variance = smooth(&cleaning::SquaredError::variance),
                spread = smooth(&cleaning::SquaredError::spread);

@@ -1,7 +1,8 @@
 #include "core/film/clean/guide.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <atomic>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -24,19 +25,25 @@ struct InHalves {
     Sheet first, second;
 };
 
+// Calls work(y) for each row, on all cores.
+template <class Work>
+void each_row(std::size_t height, const Work& work) {
+    parallel_for(
+        height,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t y = first; y < last; ++y) work(static_cast<std::int64_t>(y));
+        },
+        rows_at_once);
+}
+
 // Calls value(pixel) for each, and brings it to a sheet.
 template <class Value>
 Sheet sheet_of(std::uint32_t width, std::uint32_t height, const Value& value) {
     Sheet sheet(width, height);
-    parallel_for(
-        height,
-        [&](std::size_t first, std::size_t last) {
-            for (std::size_t y = first; y < last; ++y) {
-                float* const row = sheet.at(0, static_cast<std::int64_t>(y));
-                for (std::size_t x = 0; x < width; ++x) row[x] = value(y * width + x);
-            }
-        },
-        rows_at_once);
+    each_row(height, [&](std::int64_t y) {
+        float* const row = sheet.at(0, y);
+        for (std::size_t x = 0; x < width; ++x) row[x] = value(static_cast<std::size_t>(y) * width + x);
+    });
     sheet.extend(width, height);
     return sheet;
 }
@@ -49,14 +56,18 @@ const PictureLayer* layer_called(const std::vector<PictureLayer>& layers, const 
 // The sum of the layers, without gains; none: some have no half.
 std::optional<std::vector<Rgb>> second_half(const Picture& picture) {
     std::vector<Rgb> sum(std::size_t{picture.width} * picture.height);
-    bool differ = false;
+    std::atomic<bool> differ{false};
     for (const auto& layer : picture.layers) {
         const auto* half = layer_called(picture.shown, half_of(layer.name));
         if (!half) return std::nullopt;
-        for (std::size_t i = 0; i < sum.size(); ++i) {
-            sum[i] += half->pixels[i];
-            differ = differ || half->pixels[i] != layer.pixels[i] * 0.5f;
-        }
+        parallel_for(sum.size(), [&](std::size_t first, std::size_t last) {
+            bool here = false;
+            for (std::size_t i = first; i < last; ++i) {
+                sum[i] += half->pixels[i];
+                here = here || half->pixels[i] != layer.pixels[i] * 0.5f;
+            }
+            if (here) differ = true;
+        });
     }
     if (!differ || picture.layers.empty()) return std::nullopt;  // of one sample both halves are alike
     return sum;
@@ -65,34 +76,34 @@ std::optional<std::vector<Rgb>> second_half(const Picture& picture) {
 std::vector<Rgb> without_gains(const Picture& picture) {
     if (picture.layers.empty()) return picture.beauty;
     std::vector<Rgb> sum(std::size_t{picture.width} * picture.height);
-    for (const auto& layer : picture.layers)
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += layer.pixels[i];
+    parallel_for(sum.size(), [&](std::size_t first, std::size_t last) {
+        for (const auto& layer : picture.layers)
+            for (std::size_t i = first; i < last; ++i) sum[i] += layer.pixels[i];
+    });
     return sum;
 }
 
 // Half of the squared difference of two means, which is the variance of each, over some pixels.
 Sheet variance_between(const InHalves& halves, std::uint32_t width, std::uint32_t height, std::uint32_t radius) {
-    Sheet squares(width, height);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) {
-            const float apart = *halves.first.at(x, y) - *halves.second.at(x, y);
-            *squares.at(x, y) = apart * apart * 0.5f;
-        }
-    return smoothed(squares, width, height, radius);
+    return smoothed(width, height, radius, [&](std::int64_t y, float* row) {
+        const float *const first = halves.first.at(0, y), *const second = halves.second.at(0, y);
+        for (std::size_t x = 0; x < width; ++x) row[x] = (first[x] - second[x]) * (first[x] - second[x]) * 0.5f;
+        return row;
+    });
 }
 
 // Without halves: what the four neighbours don't foretell (Immerkær 1996, "Fast Noise Variance Estimation", in the
 // simplest form). Edges count as noise, too.
 Sheet variance_by_neighbours(const Sheet& sheet, std::uint32_t width, std::uint32_t height) {
-    Sheet squares(width, height);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) {
-            const float around = 0.25f * (*sheet.at(std::int64_t{x} - 1, y) + *sheet.at(std::int64_t{x} + 1, y) +
-                                          *sheet.at(x, std::int64_t{y} - 1) + *sheet.at(x, std::int64_t{y} + 1));
+    return smoothed(width, height, 2, [&](std::int64_t y, float* row) {
+        for (std::int64_t x = 0; x < std::int64_t{width}; ++x) {
+            const float around =
+                0.25f * (*sheet.at(x - 1, y) + *sheet.at(x + 1, y) + *sheet.at(x, y - 1) + *sheet.at(x, y + 1));
             const float apart = *sheet.at(x, y) - around;
-            *squares.at(x, y) = apart * apart * 0.8f;  // whose variance is 5/4 of one pixel's
+            row[x] = apart * apart * 0.8f;  // whose variance is 5/4 of one pixel's
         }
-    return smoothed(squares, width, height, 2);
+        return row;
+    });
 }
 
 constexpr std::int64_t feature_reach = 1;  // pixels to each side over which a feature's noise is taken away
@@ -200,16 +211,19 @@ void add_without_noise(const std::vector<NoisyFeature>& noisy, Guide& guide) {
         },
         rows_at_once);
     for (const auto& [first, second] : cleaned) {
+        const auto &one = first, &other = second;
         Feature feature{Sheet(guide.width, guide.height), {}};
-        Sheet squares(guide.width, guide.height);
-        for (std::uint32_t y = 0; y < guide.height; ++y)
-            for (std::uint32_t x = 0; x < guide.width; ++x) {
-                const float a = *first.at(x, y), b = *second.at(x, y);
-                *feature.value.at(x, y) = (a + b) * 0.5f;
-                *squares.at(x, y) = (a - b) * (a - b) * 0.25f;
-            }
+        each_row(guide.height, [&](std::int64_t y) {
+            const float *const a = one.at(0, y), *const b = other.at(0, y);
+            float* const value = feature.value.at(0, y);
+            for (std::size_t x = 0; x < guide.width; ++x) value[x] = (a[x] + b[x]) * 0.5f;
+        });
         feature.value.extend(guide.width, guide.height);
-        feature.noise = smoothed(squares, guide.width, guide.height, 1);
+        feature.noise = smoothed(guide.width, guide.height, 1, [&](std::int64_t y, float* row) {
+            const float *const a = one.at(0, y), *const b = other.at(0, y);
+            for (std::size_t x = 0; x < guide.width; ++x) row[x] = (a[x] - b[x]) * (a[x] - b[x]) * 0.25f;
+            return row;
+        });
         guide.features.push_back(std::move(feature));
     }
 }
@@ -217,10 +231,16 @@ void add_without_noise(const std::vector<NoisyFeature>& noisy, Guide& guide) {
 // So that all features have numbers of about 1.
 float range_of(const PictureLayer& layer, std::size_t channel) {
     float least = largest, most = -largest;
-    for (const auto& pixel : layer.pixels) {
-        const float value = sound(channel_of(pixel, channel));
-        least = std::min(least, value), most = std::max(most, value);
-    }
+    std::mutex range_mutex;
+    parallel_for(layer.pixels.size(), [&](std::size_t first, std::size_t last) {
+        float lower = largest, upper = -largest;
+        for (std::size_t i = first; i < last; ++i) {
+            const float value = sound(channel_of(layer.pixels[i], channel));
+            lower = std::min(lower, value), upper = std::max(upper, value);
+        }
+        const std::lock_guard lock(range_mutex);
+        least = std::min(least, lower), most = std::max(most, upper);
+    });
     return most - least;
 }
 
@@ -233,7 +253,8 @@ void add_feature(const Picture& picture, const PictureLayer& layer, std::size_t 
         if (!(range > 0)) continue;  // it tells nothing apart
         const auto whole_at = [&](std::size_t i) { return sound(channel_of(layer.pixels[i], channel)) / range; };
         if (!half) {
-            guide.features.push_back({sheet_of(guide.width, guide.height, whole_at), Sheet(guide.width, guide.height)});
+            guide.features.push_back(
+                {sheet_of(guide.width, guide.height, whole_at), Sheet::of_zeros(guide.width, guide.height)});
             continue;
         }
         const auto half_at = [&](std::size_t i) { return sound(channel_of(half->pixels[i], channel)) / range; };
@@ -285,7 +306,7 @@ void add_colours(const Picture& picture, Guide& guide) {
 Guide take_guide(Picture& picture) {
     Guide guide;
     guide.width = picture.width, guide.height = picture.height;
-    guide.inside = Sheet(guide.width, guide.height);
+    guide.inside = Sheet::of_zeros(guide.width, guide.height);
     for (std::uint32_t y = 0; y < guide.height; ++y) std::fill_n(guide.inside.at(0, y), guide.width, 1.0f);
     add_features(picture, guide);
     for (const auto& name : feature_layers())

@@ -28,6 +28,9 @@ public:
     std::size_t cell_of(std::int64_t pixel) const {
         return static_cast<std::size_t>((pixel + crop_) / cell_side - left_);
     }
+    std::int64_t first_pixel_of(std::size_t cell) const {
+        return (left_ + static_cast<std::int64_t>(cell)) * cell_side - crop_;
+    }
     /// Where the first cell of a part lies among these.
     std::size_t place_of(const CellAxis& part) const { return static_cast<std::size_t>(part.left_ - left_); }
 
@@ -93,6 +96,18 @@ struct Moved {
         : grid{{place.x, width, picture.x}, {place.y, height, picture.y}},
           planes(lost + 3 * layers, CellPlane(grid.size())) {}
 
+    /// Adds a row of the part's pixels, whose numbers are value(0), value(1), … from `left` on.
+    template <class Value>
+    void add_row(std::size_t plane, Place left, std::int64_t width, const Value& value) {
+        float* const row = planes[plane].data() + grid.rows.cell_of(left.y) * grid.columns.cells();
+        std::int64_t x = 0;
+        for (std::size_t cell = 0; cell < grid.columns.cells(); ++cell) {
+            const std::int64_t end = std::min(width, grid.columns.first_pixel_of(cell + 1) - left.x);
+            float sum = 0;
+            for (; x < end; ++x) sum += value(x);
+            row[cell] += sum;
+        }
+    }
     /// Adds a part of the picture, some cells of which may have pixels in other parts, too.
     void add(const Moved& part);
 };

@@ -11,6 +11,15 @@ constexpr std::size_t rows_of_piece = 32;
 
 }  // namespace
 
+Sheet::Sheet(std::uint32_t width, std::uint32_t height)
+    : stride_(up_to_cores(width) + 2 * margin), values_(stride_ * (up_to_cores(height) + 2 * margin)) {}
+
+Sheet Sheet::of_zeros(std::uint32_t width, std::uint32_t height) {
+    Sheet sheet(width, height);
+    std::fill(sheet.values_.begin(), sheet.values_.end(), 0.0f);
+    return sheet;
+}
+
 void Sheet::extend(std::uint32_t width, std::uint32_t height) {
     const std::size_t rows = values_.size() / stride_;
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -32,35 +41,40 @@ void add_across(const float* row, Inside inside, std::int64_t radius, std::int64
     }
 }
 
-Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, std::uint32_t radius) {
-    Sheet across(width, height), both(width, height);
+Sheet smoothed(std::uint32_t width, std::uint32_t height, std::uint32_t radius, const RowOfSheet& row_of) {
+    Sheet smooth(width, height);
     const auto r = static_cast<std::int64_t>(radius), w = std::int64_t{width}, h = std::int64_t{height};
     const Inside inside{0, w};
-    // Each sum is made anew in the same order, so that a pixel knows nothing of where its row began.
+    // Each sum is made anew in the same order, so that a pixel knows nothing of where its row began, nor of where its
+    // piece did, which makes the rows around it as well.
     parallel_for(
         height,
         [&](std::size_t first, std::size_t last) {
-            for (auto y = static_cast<std::int64_t>(first); y < static_cast<std::int64_t>(last); ++y) {
-                float* const sums = across.at(0, y);
-                add_across(sheet.at(0, y), inside, r, w, sums);
+            const auto top = static_cast<std::int64_t>(first), end = static_cast<std::int64_t>(last);
+            const std::int64_t begin = std::max<std::int64_t>(0, top - r), rows = std::min(h, end + r) - begin;
+            std::vector<float> across(static_cast<std::size_t>(rows * w)), scratch(width);
+            for (std::int64_t y = 0; y < rows; ++y) {
+                float* const sums = across.data() + y * w;
+                add_across(row_of(begin + y, scratch.data()), inside, r, w, sums);
                 for (std::int64_t x = 0; x < w; ++x) sums[x] /= static_cast<float>(inside.count(x, r));
             }
-        },
-        rows_of_piece);
-    parallel_for(
-        height,
-        [&](std::size_t first, std::size_t last) {
-            for (auto y = static_cast<std::int64_t>(first); y < static_cast<std::int64_t>(last); ++y) {
+            for (std::int64_t y = top; y < end; ++y) {
                 const std::int64_t from = std::max<std::int64_t>(0, y - r), to = std::min(h - 1, y + r);
-                float* sums = both.at(0, y);
+                float* const sums = smooth.at(0, y);
+                std::fill_n(sums, w, 0.0f);
                 for (std::int64_t k = from; k <= to; ++k)
-                    for (std::int64_t x = 0; x < w; ++x) sums[x] += *across.at(x, k);
+                    for (std::int64_t x = 0; x < w; ++x)
+                        sums[x] += across[static_cast<std::size_t>((k - begin) * w + x)];
                 for (std::int64_t x = 0; x < w; ++x) sums[x] /= static_cast<float>(to - from + 1);
             }
         },
         rows_of_piece);
-    both.extend(width, height);
-    return both;
+    smooth.extend(width, height);
+    return smooth;
+}
+
+Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, std::uint32_t radius) {
+    return smoothed(width, height, radius, [&](std::int64_t y, float*) { return sheet.at(0, y); });
 }
 
 }  // namespace lightnet::cleaning

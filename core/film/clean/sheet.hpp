@@ -5,6 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 namespace lightnet::cleaning {
@@ -33,12 +37,31 @@ struct Place {
     std::int64_t x = 0, y = 0;
 };
 
+/// Gives a std::vector numbers that are not set to 0.
+template <class T>
+struct Unset : std::allocator<T> {
+    template <class U>
+    struct rebind {
+        using other = Unset<U>;
+    };
+    template <class U>
+    void construct(U* place) {
+        ::new (static_cast<void*>(place)) U;
+    }
+    template <class U, class... Arguments>
+    void construct(U* place, Arguments&&... arguments) {
+        ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+    }
+};
+
 /// One number per pixel, row by row, and beyond the edges. A value.
 class Sheet {
 public:
     Sheet() = default;
-    Sheet(std::uint32_t width, std::uint32_t height)
-        : stride_(up_to_cores(width) + 2 * margin), values_(stride_ * (up_to_cores(height) + 2 * margin)) {}
+    /// Its numbers are anything, until those of the picture are set and it is extended: whoever sets them, on whatever
+    /// core, is the first to need the memory.
+    Sheet(std::uint32_t width, std::uint32_t height);
+    static Sheet of_zeros(std::uint32_t width, std::uint32_t height);
 
     float* at(std::int64_t x, std::int64_t y) { return values_.data() + index(x, y); }
     const float* at(std::int64_t x, std::int64_t y) const { return values_.data() + index(x, y); }
@@ -59,7 +82,7 @@ private:
     }
 
     std::size_t stride_ = 0;
-    std::vector<float> values_;
+    std::vector<float, Unset<float>> values_;
 };
 
 using Colours = std::array<Sheet, 3>;
@@ -78,7 +101,12 @@ struct Inside {
 /// right, so that a place knows nothing of where its row began.
 void add_across(const float* row, Inside inside, std::int64_t radius, std::int64_t width, float* sums);
 
-/// The mean of each pixel's neighbours up to `radius` away, of those that are in the picture.
+/// Gives the numbers of a row; there is scratch for them.
+using RowOfSheet = std::function<const float*(std::int64_t y, float* scratch)>;
+
+/// The mean of each pixel's neighbours up to `radius` away, of those that are in the picture. Rows are made on all
+/// cores, and more than once.
+Sheet smoothed(std::uint32_t width, std::uint32_t height, std::uint32_t radius, const RowOfSheet& row_of);
 Sheet smoothed(const Sheet& sheet, std::uint32_t width, std::uint32_t height, std::uint32_t radius);
 
 }  // namespace lightnet::cleaning
