@@ -55,6 +55,25 @@ void take_shape(const SceneData& first, std::uint32_t i, ShapeGeometry& there, M
         moment.shapes.emplace(i, positions_of(std::move(there)));
 }
 
+bool same_look(const Texture& a, const Texture& b) {
+    const auto *image = std::get_if<ImageTexture>(&a.pattern), *other = std::get_if<ImageTexture>(&b.pattern);
+    return a.scale == b.scale && (!image || !other || image->uv == other->uv);
+}
+bool same_look(const Shape& a, const Shape& b) {
+    return a.emission.has_value() == b.emission.has_value() &&
+           (!a.emission || a.emission->radiance == b.emission->radiance);
+}
+bool same_look(const BareLight& a, const BareLight& b) {
+    const auto *sun = std::get_if<DirectionalLight>(&a), *other = std::get_if<DirectionalLight>(&b);
+    return !sun || !other || (sun->direction == other->direction && sun->irradiance == other->irradiance);
+}
+bool same_look(const SceneData& a, const SceneData& b) {
+    const auto same = [](const auto& one, const auto& there) {
+        return std::ranges::equal(one, there, [](const auto& x, const auto& y) { return same_look(x, y); });
+    };
+    return same(a.textures, b.textures) && same(a.shapes, b.shapes) && same(a.lights, b.lights);
+}
+
 void take_cameras(const SceneData& there, Moment& moment) {
     moment.cameras.push_back(there.camera);
     for (const auto& one : there.cameras) moment.cameras.push_back(one.camera);
@@ -124,6 +143,7 @@ Moment moment_of(SceneData there, const SceneData& first) {
                               there.instances.size() != first.instances.size() ||
                               there.lights.size() != first.lights.size();
     if (moment.has_other_things) return moment;
+    moment.looks_otherwise = !same_look(first, there);
     for (std::uint32_t i = 0; i < there.shapes.size(); ++i) take_shape(first, i, there.shapes[i].geometry, moment);
     for (std::uint32_t i = 0; i < there.instances.size(); ++i)
         if (there.instances[i].object == first.instances[i].object &&

@@ -17,6 +17,7 @@ struct Moment {
     std::vector<CameraData> cameras;            // that of the scene, then its list; none: it has other ones
     std::vector<std::uint32_t> other_shapes{};  // whose parts can't be followed: they stand still
     bool has_other_things = false;              // so many shapes, instances, lights: all but the cameras stands still
+    bool looks_otherwise = false;               // colours, brightness of shapes, where suns stand: as at first
 };
 
 /// `there`: the scene at that time.

@@ -129,6 +129,8 @@ private:
         Moment moment = moment_of(read_at_(shutter_.open + part * (shutter_.close - shutter_.open)), scene_);
         if (moment.has_other_things)
             warn({file_, 0}, "it has other parts while the shutter is open: all but its camera stands still");
+        if (moment.looks_otherwise)
+            warn({file_, 0}, "colours, brightness or suns change while the shutter is open: they are as when it opens");
         for (const auto i : moment.other_shapes) {
             broken_.insert(i);
             warn(scene_.shapes[i].where, "a shape has other parts while the shutter is open: it stands still");

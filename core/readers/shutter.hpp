@@ -12,7 +12,7 @@ namespace lightnet {
 /// The scene as it is when the shutter opens, with its motion until it closes. `read_at` gives the scene at a time. It
 /// is asked at the ends, and half-way, again and again until each thing between two steps is within a thousandth of
 /// its size of where a straight way would have it, in up to 32 parts. What has other parts at other times stands still,
-/// and so do colours and brightness of what is no point or spot light: warnings say so of the former.
+/// and so do colours and brightness of what is no point or spot light, and suns: warnings say so.
 SceneData read_in_shutter(const std::function<SceneData(double seconds)>& read_at, const ShutterSpan& shutter,
                           const std::string& file);
 

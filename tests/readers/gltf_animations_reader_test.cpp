@@ -324,6 +324,33 @@ TEST(GltfAnimations, MoveWhatTurnsItsBackInTheShutter) {
     expect_near(std::get<Mesh>(scene.motion.shapes[0].later.back()).positions[2], {0, -3, 0});
 }
 
+TEST(GltfAnimations, NameLooksThatStandStillInTheShutter) {
+    GltfText text = keyed({0, 1}, "VEC4", {0, 0, 0, 1, 0, 1, 0, 1});
+    text.vectors("VEC3", {0, 0, 0, 1, 1, 1});              // 3
+    text.vectors("VEC4", {0, 0, 0, 1, half, 0, 0, half});  // 4
+    text.vectors("SCALAR", {1, 2});                        // 5
+    const auto said = [&](const Channel& channel) {
+        return warnings_of(in_shutter(
+            text,
+            R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"materials":[{"emissiveFactor":
+            [1,0,0]}],"extensionsUsed":["KHR_animation_pointer","KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":
+            {"lights":[{"type":"directional"},{"type":"point","intensity":1}]}},
+            "nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}},
+            {"extensions":{"KHR_lights_punctual":{"light":1}}}],)" +
+                animations(animated({channel}))));
+    };
+    const auto pointed = [](std::size_t output, const std::string& to) {
+        return Channel{1, output, "", "LINEAR", 0, pointer(to)};
+    };
+    const auto stands = HasSubstr("colours, brightness or suns change while the shutter is open");
+    EXPECT_THAT(said(pointed(2, "/materials/0/pbrMetallicRoughness/baseColorFactor")), stands);
+    EXPECT_THAT(said(pointed(3, "/materials/0/emissiveFactor")), stands);
+    EXPECT_THAT(said({1, 4, "rotation", "LINEAR", 1}), stands) << "a sun";
+    EXPECT_THAT(said(pointed(5, "/extensions/KHR_lights_punctual/lights/0/intensity")), stands);
+    EXPECT_THAT(said(pointed(5, "/extensions/KHR_lights_punctual/lights/1/intensity")), Not(stands)) << "it moves";
+    EXPECT_THAT(said({1, 3, "translation"}), Not(stands));
+}
+
 TEST(GltfAnimations, MoveWhatHasNoSizeAtTimes) {
     const auto text = keyed({0, 1}, "VEC3", {0, 0, 0, 2, 2, 2});
     const auto document = one_mesh + R"("nodes":[{"mesh":0},{"mesh":0,"translation":[5,0,0]}],)" +
