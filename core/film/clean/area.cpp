@@ -8,25 +8,31 @@
 #include "core/film/clean/changes.hpp"
 
 namespace lightnet::cleaning {
+
+struct AreaScratch {
+    /// A layer that is being cleaned.
+    struct Layer {
+        std::array<AreaChannels, 2> halves;
+        AreaChannels changes;
+    };
+    std::vector<Regressions> regressions;  // of each centre
+    std::vector<Layer> layers;
+};
+
 namespace {
 
 // A pixel that is like none of those around it stays what it is: so much it weighs itself, with centres at each pixel.
 constexpr float own_weight = 1.125f;
 
-/// A layer that is being cleaned.
-struct LayerWork {
-    std::array<AreaChannels, 2> halves;
-    AreaChannels changes;
-};
-
 /// Work of an area.
 class AreaCleaning {
 public:
-    AreaCleaning(const Noisy& noisy, Place core)
+    AreaCleaning(const Noisy& noisy, Place core, AreaScratch& scratch)
         : picture_(noisy.picture),
           noisy_(noisy),
           core_(core),
-          area_{core.x - std::int64_t{rim}, core.y - std::int64_t{rim}} {}
+          area_{core.x - std::int64_t{rim}, core.y - std::int64_t{rim}},
+          scratch_(scratch) {}
 
     CleanArea clean() {
         place_centres();
@@ -37,10 +43,11 @@ public:
         each_of_core([&](std::size_t, std::size_t x, std::size_t y) {
             area.expected.push_back(choice.expected[y * area_side + x]);
         });
-        std::vector<LayerWork> work(std::max<std::size_t>(1, picture_.layers.size()));
-        for (std::size_t l = 0; l < work.size(); ++l) take_layer(l, work[l].halves);
-        change_layers(work);
-        for (std::size_t l = 0; l < work.size(); ++l) area.layers.push_back(cleaned(pixels_of(l), work[l].changes));
+        scratch_.layers.resize(std::max<std::size_t>(1, picture_.layers.size()));
+        for (std::size_t l = 0; l < scratch_.layers.size(); ++l) take_layer(l, scratch_.layers[l]);
+        change_layers();
+        for (std::size_t l = 0; l < scratch_.layers.size(); ++l)
+            area.layers.push_back(cleaned(pixels_of(l), scratch_.layers[l].changes));
         if (noisy_.guide.halves) note_moves(of_sum, choice, area);
         return area;
     }
@@ -74,7 +81,7 @@ private:
         for (auto y = first_at(area_.y, picture_.y); y < y_end; y += step)
             for (auto x = first_at(area_.x, picture_.x); x < x_end; x += step) centres_.push_back({{x, y}});
         if (centres_.empty() && x_end > 0) centres_.push_back({{x_end - 1, y_end - 1}});  // of a few pixels
-        regressions_.resize(centres_.size());
+        scratch_.regressions.resize(centres_.size());
     }
 
     // Makes the regressions, too, and what all weights of a pixel add up to.
@@ -86,11 +93,11 @@ private:
         Wanted wanted;
         for_filters([&](std::size_t half, std::size_t f) { wanted[half][f].changes = &changes[half][f]; });
         for (std::size_t i = 0; i < centres_.size(); ++i) {
-            regress(noisy_.guide, centres_[i], regressions_[i]);
+            regress(noisy_.guide, centres_[i], scratch_.regressions[i]);
             for_filters([&](std::size_t half, std::size_t f) {
-                add_weights(centres_[i], regressions_[i][half][f], 1, area_, weights_[half][f].data());
+                add_weights(centres_[i], scratch_.regressions[i][half][f], 1, area_, weights_[half][f].data());
             });
-            add_changes(noisy_.guide, centres_[i], regressions_[i], halves, area_, wanted);
+            add_changes(noisy_.guide, centres_[i], scratch_.regressions[i], halves, area_, wanted);
         }
         for_filters([&](std::size_t half, std::size_t f) {
             for (std::size_t i = 0; i < AreaChannels::size; ++i) {
@@ -136,7 +143,8 @@ private:
             }
             for_filters([&](std::size_t half, std::size_t f) {
                 const float part = parts_[i][f] + (f + 1 == filters ? left : 0);
-                if (part > 0) add_weights(centres_[i], regressions_[i][half][f], part, area_, weights_[half][0].data());
+                if (part > 0)
+                    add_weights(centres_[i], scratch_.regressions[i][half][f], part, area_, weights_[half][0].data());
             });
         }
         for (auto& of_half : weights_)
@@ -145,7 +153,9 @@ private:
     float own() const { return own_weight / static_cast<float>(noisy_.step * noisy_.step); }
 
     // What is beyond the picture, or not finite, counts as black.
-    void take_layer(std::size_t layer, std::array<AreaChannels, 2>& halves) const {
+    void take_layer(std::size_t layer, AreaScratch::Layer& taken) const {
+        auto& halves = taken.halves;
+        for (AreaChannels* const channels : {&halves[0], &halves[1], &taken.changes}) channels->blacken();
         constexpr auto r = std::int64_t{halo};
         const auto x_first = std::max<std::int64_t>(0, area_.x - r),
                    x_end = std::min<std::int64_t>(picture_.width, area_.x + area_side + r),
@@ -166,17 +176,17 @@ private:
     }
 
     // A row of centres for all layers, then the next one: regressions are brought from afar only once.
-    void change_layers(std::vector<LayerWork>& work) const {
+    void change_layers() {
         for (std::size_t first = 0, last = 0; first < centres_.size(); first = last) {
             while (last < centres_.size() && centres_[last].at.y == centres_[first].at.y) ++last;
-            for (auto& layer : work)
+            for (auto& layer : scratch_.layers)
                 for (std::size_t i = first; i < last; ++i) {
                     Wanted wanted;
                     for_filters([&](std::size_t half, std::size_t f) {
                         if (parts_[i][f] > 0)
                             wanted[half][f] = {&layer.changes, weights_[half][0].data(), parts_[i][f]};
                     });
-                    add_changes(noisy_.guide, centres_[i], regressions_[i], layer.halves, area_, wanted);
+                    add_changes(noisy_.guide, centres_[i], scratch_.regressions[i], layer.halves, area_, wanted);
                 }
         }
     }
@@ -241,14 +251,31 @@ private:
     const Noisy& noisy_;
     Place core_, area_;
     std::vector<Centre> centres_;
-    std::vector<Regressions> regressions_;           // of each centre
     std::vector<std::array<float, filters>> parts_;  // of each centre: what is chosen
+    AreaScratch& scratch_;
     // By half and filter: what the weights of a pixel are in all; in the end, by half, what changes count in all.
     std::array<std::array<std::vector<float>, filters>, 2> weights_{};
 };
 
 }  // namespace
 
-CleanArea clean_area(const Noisy& noisy, Place core) { return AreaCleaning(noisy, core).clean(); }
+AreaCleaner::AreaCleaner(const Noisy& noisy) : noisy_(noisy) {}
+AreaCleaner::~AreaCleaner() = default;
+
+std::unique_ptr<AreaScratch> AreaCleaner::idle_scratch() {
+    const std::lock_guard lock(idle_mutex_);
+    if (idle_.empty()) return std::make_unique<AreaScratch>();
+    auto scratch = std::move(idle_.back());
+    idle_.pop_back();
+    return scratch;
+}
+
+CleanArea AreaCleaner::clean(Place core) {
+    auto scratch = idle_scratch();
+    CleanArea area = AreaCleaning(noisy_, core, *scratch).clean();
+    const std::lock_guard lock(idle_mutex_);
+    idle_.push_back(std::move(scratch));
+    return area;
+}
 
 }  // namespace lightnet::cleaning

@@ -1,6 +1,8 @@
 // Cleans one area of a picture.
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "core/film/clean/choice.hpp"
@@ -28,8 +30,24 @@ struct CleanArea {
     std::vector<float> brightness;  // of each pixel, likewise
 };
 
-/// Makes the core of the area that begins `rim` to the left of and above `core`. Depends on nothing but pixels up to
-/// `rim` + `halo` around it. Scratch of some MB, and of 1 MB for each layer, is its own.
-CleanArea clean_area(const Noisy& noisy, Place core);
+struct AreaScratch;
+
+/// Cleans areas of a picture, on any threads at once. Their scratch, some 20 MB and 2 MB for each layer, goes from one
+/// area to the next, so that the system need not find memory for each.
+class AreaCleaner {
+public:
+    explicit AreaCleaner(const Noisy& noisy);
+    ~AreaCleaner();
+    /// Makes the core of the area that begins `rim` to the left of and above `core`. Depends on nothing but pixels up
+    /// to `rim` + `halo` around it.
+    CleanArea clean(Place core);
+
+private:
+    std::unique_ptr<AreaScratch> idle_scratch();
+
+    const Noisy& noisy_;
+    std::mutex idle_mutex_;
+    std::vector<std::unique_ptr<AreaScratch>> idle_;
+};
 
 }  // namespace lightnet::cleaning

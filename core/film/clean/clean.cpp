@@ -120,6 +120,7 @@ std::vector<cleaning::SquaredError> clean_areas(Picture& picture, const Noisy& n
     const std::size_t across = columns.cores(), down = lines.cores();
     const std::size_t rows = (areas_at_once + across - 1) / across;
     static_assert(cleaning::core_side > cleaning::rim + cleaning::halo, "areas look no further than the next row");
+    cleaning::AreaCleaner cleaner(noisy);
     std::vector<CleanArea> last;
     for (std::size_t row = 0; row < down; row += rows) {
         std::vector<CleanArea> now(std::min(rows, down - row) * across);
@@ -127,7 +128,7 @@ std::vector<cleaning::SquaredError> clean_areas(Picture& picture, const Noisy& n
             now.size(),
             [&](std::size_t first, std::size_t end) {
                 for (std::size_t i = first; i < end; ++i)
-                    now[i] = clean_area(noisy, {columns.first(i % across), lines.first(row + i / across)});
+                    now[i] = cleaner.clean({columns.first(i % across), lines.first(row + i / across)});
             },
             1);
         for (const auto& area : last) put_into(picture, found, area);

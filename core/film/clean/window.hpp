@@ -1,6 +1,7 @@
 // The window around a centre of regression, as vectors.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -37,6 +38,7 @@ public:
     AreaChannels() : values_(3 * size) {}
     float* of(std::size_t channel) { return values_.data() + channel * size; }
     const float* of(std::size_t channel) const { return values_.data() + channel * size; }
+    void blacken() { std::fill(values_.begin(), values_.end(), 0.0f); }
     /// Coordinates from the area's upper left pixel.
     static std::size_t index(std::int64_t x, std::int64_t y) {
         return static_cast<std::size_t>(y + halo) * stride + static_cast<std::size_t>(x + halo);
