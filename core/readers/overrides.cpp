@@ -14,7 +14,9 @@
 #include "core/base/in_quotes.hpp"
 #include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/report.hpp"
 #include "core/readers/daylight/daylight.hpp"
+#include "core/readers/images/image_facts.hpp"
 #include "core/readers/images/image_file.hpp"
 #include "core/readers/lamp_profiles.hpp"
 #include "core/scene/reach.hpp"
@@ -142,11 +144,13 @@ Matrix stand_up(int pole, Vec3 up) {
     return turn;
 }
 
-EnvironmentData picture_around(const std::string& path, const SceneData& scene, Files& files, const SourceLine& where) {
+EnvironmentData picture_around(const std::string& path, SceneData& scene, Files& files, const SourceLine& where) {
     EnvironmentData environment;
     try {
         expect_image(files.beginning(path, image_beginning));
-        environment.image = std::make_shared<const Image>(read_image(*files.read(path)));
+        auto [image, remark] = sound(read_image(*files.read(path)));
+        environment.image = std::make_shared<const Image>(std::move(image));
+        if (!remark.empty()) scene.warnings.push_back({where, "'environment': '" + path + "': " + remark});
     } catch (const Error& problem) {
         throw UserError(where, "'environment': can't read '" + path + "': " + problem.what());
     }
@@ -249,6 +253,8 @@ void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, cons
             throw UserError(where, "'sky' and 'environment': only one of them can be around the scene");
         put_sky(*overrides.sky, scene, where);
     }
+    if (overrides.sky || !std::holds_alternative<std::monostate>(overrides.environment))
+        std::erase_if(scene.warnings, [](const Problem& said) { return said.what.ends_with(choose_around); });
     if (overrides.fog) put_fog(*overrides.fog, scene, where);
     for (auto& environment : scene.environments) environment.radiance *= overrides.environment_scale;
     scene.film.scale *= std::exp2(overrides.exposure);

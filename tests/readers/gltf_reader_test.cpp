@@ -58,6 +58,25 @@ TEST(Gltf, IsReadFromAllItsContainers) {
     EXPECT_EQ(mesh_of(read_as("a.gltf", inside)).positions[2], (Vec3{0, 1, 0}));
 }
 
+// "data:" without ";base64" has plain bytes, those written as %41 that are no letters (RFC 2397).
+TEST(Gltf, MayHoldItsBytesInEitherKindOfDataUri) {
+    const auto corner = [](const std::string& data) {
+        return mesh_of(
+                   read_as("a.gltf", document(one_node + R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+          "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],
+          "buffers":[{"byteLength":36,"uri":"data:)" +
+                                              data + R"("}])")))
+            .positions[1];
+    };
+    const std::string zero = "%00%00%00%00", one = "%00%00%80%3f";
+    EXPECT_EQ(corner("," + zero + zero + zero + one + zero + zero + zero + one + zero), (Vec3{1, 0, 0}));
+    EXPECT_EQ(corner(";base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAA%41A"), (Vec3{1, 0, 0}));
+    EXPECT_THAT(errors_as("a.gltf", document(one_node + R"("buffers":[{"byteLength":36,"uri":"data:no"}],
+          "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"bufferViews":[{"buffer":0,"byteLength":36}],
+          "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}])")),
+                HasSubstr("is no sound data"));
+}
+
 TEST(Gltf, TurnsTextureCoordinatesUpright) {
     EXPECT_EQ(mesh_of(read_gltf(with_triangle(one_node))).uvs[2], (Vec2{0, 0}));
 }
@@ -320,6 +339,17 @@ TEST(GltfMistakes, InTheTreeAreNoLoops) {
     EXPECT_THAT(errors_of_gltf(
                     with_triangle(R"("nodes":[{"mesh":0,"children":[1]},{"children":[0]}],"scenes":[{"nodes":[0]}],)")),
                 HasSubstr("nodes[1].children[0] names node 0, which stands elsewhere already"));
+}
+
+TEST(Gltf, NamesWhatItNeedsOfLaterVersions) {
+    const auto of = [](const std::string& least) {
+        std::string json = with_triangle(one_node);
+        const std::string asset = R"("version":"2.0")";
+        return warnings_of(
+            read_gltf(json.replace(json.find(asset), asset.size(), asset + R"(,"minVersion":")" + least + '"')));
+    };
+    EXPECT_THAT(of("2.0"), Not(HasSubstr("asks for")));
+    EXPECT_THAT(of("2.1"), HasSubstr("it asks for glTF 2.1"));
 }
 
 TEST(GltfMistakes, InTheContainerAreRefused) {

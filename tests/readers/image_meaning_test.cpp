@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "core/base/error.hpp"
 #include "core/readers/images/image_file.hpp"
@@ -95,6 +96,18 @@ TEST(Exr, TakesOneChannelOfAnyNameAsGrey) {
         EXPECT_EQ(image.colour(2, 1), (Rgb{102, 102, 102})) << name;
     }
     EXPECT_TRUE(read(windowed_exr({.channels = {"Z", "A"}})).has_alpha());
+}
+
+TEST(Exr, KnowsColoursByTheirLettersAndWords) {
+    for (const char* layer : {"", "beauty.", "rgba."})
+        for (const auto& [red, green, blue] :
+             {std::tuple{"r", "g", "b"}, {"red", "green", "blue"}, {"Red", "Green", "Blue"}}) {
+            const std::string in(layer);
+            const Image image = read(windowed_exr({.channels = {in + red, in + green, in + blue, in + "depth"}}));
+            EXPECT_EQ(image.colour(1, 0), (Rgb{1, 1.125f, 1.25f})) << layer << red;
+        }
+    // big letters before small ones
+    EXPECT_EQ(read(windowed_exr({.channels = {"r", "g", "b", "R", "G", "B"}})).colour(1, 0).r, 1.375f);
 }
 
 TEST(Exr, ShowsTheFirstLayerThatHasColours) {

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/readers/files/files.hpp"
 #include "core/scene/textures/look_up.hpp"
 #include "tests/support/folder.hpp"
@@ -33,6 +35,32 @@ TEST(MissingPictures, AreGreyInMitsubasScenes) {
         expect_grey(scene, model_of<DiffuseMaterial>(scene).reflectance, name, why);
         EXPECT_EQ(scene.environments.at(0).image->colour(0, 0), (Rgb{0.5f, 0.5f, 0.5f}));
     }
+}
+
+TEST(StrangePictures, HaveSoundNumbersAndAreNamed) {
+    const float infinite = std::numeric_limits<float>::infinity(), none = std::numeric_limits<float>::quiet_NaN();
+    std::string text = "PF\n1 1\n-1\n";
+    for (const float number : {infinite, none, 0.25f}) text.append(reinterpret_cast<const char*>(&number), 4);
+    const MemoryFiles files{{"s.pfm", text}};
+    const auto expect_sound = [](const SceneData& scene, TextureId texture) {
+        EXPECT_EQ(look_up(scene.textures, texture, {{0.5f, 0.5f}}), (Rgb{65504, 0, 0.25f}));
+        EXPECT_THAT(warnings_of(scene),
+                    HasSubstr("s.pfm': 1 of its pixels are infinite or no numbers: 65504 and 0 are taken"));
+    };
+    const auto xml = read_mitsuba_bsdf(
+        "<bsdf type='diffuse'><texture type='bitmap' name='reflectance'><string name='filename' value='s.pfm'/>"
+        "</texture></bsdf>",
+        files);
+    expect_sound(xml, model_of<DiffuseMaterial>(xml).reflectance);
+    const auto pbrt = read_world(
+        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"s.pfm\"\nMaterial \"diffuse\" "
+        "\"texture reflectance\" \"t\"\nShape \"sphere\"\n",
+        files);
+    expect_sound(pbrt, model_of<DiffuseMaterial>(pbrt).reflectance);
+    MemoryFiles with_library = files;
+    with_library.add("m.mtl", "newmtl a\nmap_Kd s.pfm\n");
+    const auto obj = read_as("m.obj", "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", with_library);
+    expect_sound(obj, model_of<DiffuseMaterial>(obj).reflectance);
 }
 
 TEST(MissingPictures, AreGreyInPbrtsScenes) {
@@ -134,6 +162,29 @@ public:
 };
 
 // or this host's picture would be another one
+// Included files, meshes and spectra: in other letters, or beside the file that names them.
+TEST(NamedFiles, AreFoundAsTheirMachineCalledThem) {
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
+        "1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const MemoryFiles files{
+        {"sub/Part.pbrt", "Include \"deep.pbrt\"\n"},
+        {"sub/deep.pbrt", "Shape \"plymesh\" \"string filename\" \"MESH.ply\"\n"},
+        {"sub/mesh.ply", ply},
+        {"sub/part.xml", "<scene><shape type='ply'><string name='filename' value='Mesh.PLY'/></shape></scene>"},
+        {"sub/round.pbrt", "Include \"round.pbrt\"\n"}};
+    const auto pbrt = read_world("Include \"SUB/part.pbrt\"\n", files);
+    EXPECT_EQ(pbrt.shapes.size(), 1u);
+    EXPECT_THAT(warnings_of(pbrt),
+                testing::AllOf(HasSubstr("'sub/Part.pbrt' is taken"), HasSubstr("'sub/deep.pbrt' is taken"),
+                               HasSubstr("'sub/mesh.ply' is taken")));
+    const auto xml = read_mitsuba("<include filename='Sub/part.xml'/>", files);
+    EXPECT_EQ(xml.shapes.size(), 1u);
+    EXPECT_THAT(warnings_of(xml), HasSubstr("'sub/mesh.ply' is taken"));
+    EXPECT_THAT(errors_as("a.pbrt", "WorldBegin\nInclude \"sub/round.pbrt\"\n", files), HasSubstr("includes itself"));
+    EXPECT_THAT(errors_as("a.pbrt", "WorldBegin\nInclude \"none.pbrt\"\n", files), HasSubstr("can't read 'none.pbrt'"));
+}
+
 TEST(MissingPictures, EndTheWorkWhereOneMachineAloneMissesThem) {
     LosingFiles files;
     EXPECT_THROW(read_scene(files, "a.obj"), MissingHere);

@@ -203,5 +203,25 @@ TEST(MitsubaFiles, MayBeOfOlderVersions) {
     EXPECT_EQ(scene.environments.at(0).radiance, (Rgb{2, 2, 2}));
 }
 
+// Before version 0.5 lights were luminaires, of an intensity, and angles of cameras those of the shorter side.
+TEST(MitsubaFiles, MayBeOfTheFirstVersions) {
+    const auto read = [](const std::string& part) {
+        return read_as("old.xml",
+                       R"(<scene version="0.3.0"><camera type="perspective"><float name="fov" value="60"/>)" + part +
+                           R"(<film type="exrfilm"><integer name="width" value="200"/>
+  <integer name="height" value="100"/></film></camera>
+  <shape type="rectangle"><luminaire type="area"><spectrum name="intensity" value="3"/></luminaire></shape>
+  <luminaire type="constant"><spectrum name="intensity" value="2"/></luminaire>
+  <luminaire type="directional"><spectrum name="intensity" value="4"/></luminaire></scene>)");
+    };
+    const auto scene = read("");
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    EXPECT_EQ(scene.shapes.at(0).emission->radiance, (Rgb{3, 3, 3}));
+    EXPECT_EQ(scene.environments.at(0).radiance, (Rgb{2, 2, 2}));
+    EXPECT_EQ(std::get<DirectionalLight>(scene.lights.at(0)).irradiance, (Rgb{4, 4, 4}));
+    EXPECT_NEAR(scene.camera.fov, 60, 1e-3f);  // ours is that of the shorter side, too
+    EXPECT_LT(read(R"(<boolean name="mapSmallerSide" value="false"/>)").camera.fov, 33);
+}
+
 }  // namespace
 }  // namespace lightnet::test::mitsuba_language_reader_test

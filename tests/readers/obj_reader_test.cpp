@@ -262,7 +262,7 @@ TEST(Mtl, GoesWithoutPicturesThatCantBeRead) {
 
 TEST(Mtl, SkipsOptionsOfPictures) {
     const auto scene = with_material(
-        "map_Kd -blendu off -blendv on -texres 512 -o 0 0 0 -s 1 1 1 -mm 0 2 -cc on -imfchan r wood.hdr\n",
+        "map_Kd -blendu off -blendv on -texres 512 -o 0 0 0 -s 1 1 1 -mm .5 2 -cc on -imfchan r wood.hdr\n",
         {{"wood.hdr", dot}});
     EXPECT_TRUE(
         std::holds_alternative<ImageTexture>(scene.textures[model_of<DiffuseMaterial>(scene).reflectance].pattern));

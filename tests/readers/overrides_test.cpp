@@ -171,6 +171,16 @@ TEST(SceneOverrides, PutAColourAround) {
     EXPECT_TRUE(changed(old, overrides).environments.empty());
 }
 
+TEST(SceneOverrides, LeaveNothingSaidOfLightThatSomebodyChose) {
+    SceneOverrides overrides;
+    SceneData old = with_camera();
+    old.warnings = {{{}, "there is no light: a constant environment is taken (choose one with '--env')"},
+                    {{}, "a thing is left out"}};
+    EXPECT_EQ(changed(old, overrides).warnings.size(), 2u);
+    overrides.environment = Rgb{1, 1, 1};
+    EXPECT_EQ(changed(old, overrides).warnings, (std::vector<Problem>{{{}, "a thing is left out"}}));
+}
+
 TEST(SceneOverrides, PutAPictureAroundWhoseTopIsUp) {
     const test::MemoryFiles files{
         {"sky.hdr", std::string("#?RADIANCE\n\n-Y 1 +X 2\n") + std::string("\x80\x40\x20\x81\x80\x40\x20\x81", 8)}};

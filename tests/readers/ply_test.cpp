@@ -93,6 +93,27 @@ TEST(Ply, CutsLargeFacesLikeAFan) {
     EXPECT_THAT(mesh.uvs, IsEmpty());
 }
 
+TEST(Ply, CutsConcaveFacesInside) {
+    const std::string vertices = "1 -1 0\n0 0 0\n1 1 0\n-1 1 0\n-1 -1 0\n", faces = "3 0 1 4\n5 0 1 2 3 4\n";
+    const std::string of_vertices = "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n",
+                      of_faces = "element face 2\nproperty list uchar int vertex_indices\n",
+                      start = "ply\nformat ascii 1.0\n";
+    for (const auto& text : {start + of_vertices + of_faces + "end_header\n" + vertices + faces,
+                             start + of_faces + of_vertices + "end_header\n" + faces + vertices}) {
+        const Mesh mesh = read(text);
+        ASSERT_EQ(mesh.triangles.size(), 4u);
+        float area = 0;  // with its sign: all look at +z
+        for (std::size_t i = 1; i < 4; ++i) {
+            const auto [a, b, c] = mesh.triangles[i];
+            const float part =
+                cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]).z / 2;
+            EXPECT_GT(part, 0);
+            area += part;
+        }
+        EXPECT_FLOAT_EQ(area, 3);
+    }
+}
+
 // Triangles are read at once where they are whole numbers of 32 bits; what lies between them is read as ever.
 TEST(Ply, ReadsBinaryFacesOfAnyLengthInTheirOrder) {
     const auto faces = [](std::int32_t last) {

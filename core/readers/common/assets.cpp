@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/readers/images/image_facts.hpp"
 
 namespace lightnet {
 namespace {
@@ -31,6 +32,11 @@ Assets::Found Assets::try_read(const std::string& path) {
 std::optional<Bytes> Assets::read(const std::string& path, const SourceLine& where) {
     auto [bytes, problem] = try_read(path);
     if (bytes) return std::move(bytes);
+    if (path != where.file)  // the scene's own name is not guessed at
+        for (const std::string& place : other_places(where.file, path)) {
+            report_.warn(where, fmt::format("'{}': {}: '{}' is taken", path, problem, place));
+            return files_.read(place);
+        }
     report_.error(where, fmt::format("can't read a file: {}", problem));
     return std::nullopt;
 }
@@ -42,7 +48,8 @@ const Assets::Picture& Assets::decoded(const std::string& name, const Encoding& 
     const auto [entry, fresh] = pictures_.try_emplace({name, encoding.curve, encoding.gamma});
     if (!fresh) return entry->second;
     try {
-        entry->second.image = std::make_shared<const Image>(decode());
+        auto [image, remark] = sound(decode());
+        entry->second = {std::make_shared<const Image>(std::move(image)), "", std::move(remark)};
     } catch (const MissingHere&) {
         throw;
     } catch (const Error& problem) {
@@ -60,6 +67,7 @@ const Assets::Picture& Assets::try_picture(const std::string& path, const Encodi
 
 // DECISIONS: grey-stands-in
 std::shared_ptr<const Image> Assets::or_grey(const std::string& name, const Picture& picture, const SourceLine& where) {
+    if (!picture.remark.empty()) report_.warn(where, fmt::format("image '{}': {}", name, picture.remark));
     if (picture.image) return picture.image;
     report_.warn(where, fmt::format("image '{}': {}: mid-grey is taken instead", name, picture.problem));
     if (!grey_) grey_ = std::make_shared<const Image>(mid_grey());
@@ -71,9 +79,9 @@ std::shared_ptr<const Image> Assets::picture(const std::string& path, const Enco
     const Picture& first = try_picture(path, encoding);
     if (!first.image && !exists(path))
         for (const std::string& place : other_places(where.file, path))
-            if (const auto& other = try_picture(place, encoding).image) {
+            if (const Picture& other = try_picture(place, encoding); other.image) {
                 report_.warn(where, fmt::format("image '{}': {}: '{}' is taken", path, first.problem, place));
-                return other;
+                return or_grey(place, other, where);
             }
     return or_grey(path, first, where);
 }
@@ -136,7 +144,7 @@ SceneData read_by_assets(Files& files, const std::string& path, const std::funct
     report.check();
     if (!has_light(scene)) {
         report.warn({path, 0},
-                    "there is no light: a constant environment of radiance 1 is taken (choose one with '--env')");
+                    "there is no light: a constant environment of radiance 1 is taken " + std::string(choose_around));
         scene.environments.emplace_back();
     }
     scene.warnings = report.warnings();

@@ -45,6 +45,7 @@ public:
     struct Picture {
         std::shared_ptr<const Image> image;
         std::string problem;
+        std::string remark{};  // what is strange about the image; "": nothing
     };
     const Picture& try_picture(const std::string& path, const Encoding& encoding);
     /// The image at `path`, or at another place where the file that names it may mean one; one that is missing or

@@ -4,11 +4,15 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"
 
 namespace lightnet {
+
+/// Ends what is said of light that a file lacks; it is said only where nobody has chosen one.
+inline constexpr std::string_view choose_around = "(choose one with '--env')";
 
 /// Collects the problems of one read. Equal warnings are said once, where they came up first, with their number.
 class Report {

@@ -63,6 +63,18 @@ std::string from_uri(std::string_view uri) {
     return result;
 }
 
+/// The bytes of "data:…;base64,…", or of "data:…,…" (RFC 2397). None: it is neither.
+std::optional<std::vector<std::byte>> from_data_uri(std::string_view uri) {
+    const auto comma = uri.find(',');
+    if (comma == uri.npos) return std::nullopt;
+    const auto data = uri.substr(comma + 1);
+    if (uri.substr(0, comma).ends_with(";base64"))
+        return data.find('%') == data.npos ? from_base64(data) : from_base64(from_uri(data));
+    const std::string plain = from_uri(data);
+    const auto* bytes = reinterpret_cast<const std::byte*>(plain.data());
+    return std::vector<std::byte>(bytes, bytes + plain.size());
+}
+
 }  // namespace
 
 Document::Document(Assets& assets, const std::string& path) : assets_(assets), path_(path) {
@@ -80,6 +92,11 @@ Document::Document(Assets& assets, const std::string& path) : assets_(assets), p
         throw UserError({path, 0}, version.empty() ? "asset.version is missing: only glTF 2.0 is read"
                                                    : fmt::format("asset.version is '{}': only glTF 2.0 is read",
                                                                  version.substr(0, 16)));
+    const std::string least = root()["asset"]["minVersion"].text("2.0");
+    if (least != "2.0")
+        assets.report().warn(
+            {path, 0},
+            fmt::format("it asks for glTF {}, and 2.0 is read: what is new in it is missing", least.substr(0, 16)));
     buffers_.resize(root()["buffers"].size());
 }
 
@@ -164,9 +181,9 @@ Document::Resource Document::try_resource(const At& uri) const {
         auto [bytes, problem] = assets_.try_read(file);
         return {bytes, bytes ? "" : "names a file that can't be read: " + problem};
     }
-    const auto comma = text.find(";base64,");
-    auto decoded = comma == text.npos ? std::nullopt : from_base64(std::string_view(text).substr(comma + 8));
-    if (!decoded) return {nullptr, "is no base64 data"};
+    auto decoded = from_data_uri(text);
+    if (!decoded)
+        return {nullptr, text.find(',') == text.npos ? "is no sound data: a comma is missing" : "is no base64 data"};
     return {std::make_shared<const std::vector<std::byte>>(*std::move(decoded)), ""};
 }
 

@@ -113,9 +113,8 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
         if (scene.shapes.empty() && report.good()) nothing_stands(scene, report, path);
         if (std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); }) &&
             scene.environments.empty() && scene.lights.empty())
-            report.warn({path, 0},
-                        "only its own glowing surfaces light the scene, where viewers show a sky, too (choose one with "
-                        "'--env')");
+            report.warn({path, 0}, "only its own glowing surfaces light the scene, where viewers show a sky, too " +
+                                       std::string(choose_around));
     });
 }
 

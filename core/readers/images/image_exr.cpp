@@ -19,12 +19,14 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
 #include "core/base/exr_claims.hpp"
 #include "core/base/spare_threads.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/readers/images/image_decoders.hpp"
 
 namespace lightnet::decoders {
@@ -90,9 +92,26 @@ struct Names {
 
 bool sampled_fully(const Imf::Channel& channel) { return channel.xSampling == 1 && channel.ySampling == 1; }
 
+/// The channel of a layer that is called so, or by that whole word; letters may be small. "": there is none.
+std::string channel_in(const Imf::ChannelList& channels, const std::string& layer, std::string_view name) {
+    if (channels.findChannel(layer + std::string(name))) return layer + std::string(name);
+    const std::string_view word = name == "R"   ? "red"
+                                  : name == "G" ? "green"
+                                  : name == "B" ? "blue"
+                                  : name == "A" ? "alpha"
+                                                : name;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        const std::string_view whole = channel.name();
+        if (!whole.starts_with(layer)) continue;
+        const auto own = whole.substr(layer.size());
+        if (same_but_for_case(own, name) || same_but_for_case(own, word)) return std::string(whole);
+    }
+    return "";
+}
+
 /// Those of one layer, all of whose names begin so. Without any name: it has none that are a picture.
 Names names_in(const Imf::ChannelList& channels, const std::string& layer) {
-    const auto named = [&](const char* name) { return channels.findChannel(layer + name) ? layer + name : ""; };
+    const auto named = [&](const char* name) { return channel_in(channels, layer, name); };
     Names names{named("R"), named("G"), named("B"), named("A")};
     const int colours = int(!names.red.empty()) + int(!names.green.empty()) + int(!names.blue.empty());
     if (colours >= 2) return names;
@@ -100,7 +119,8 @@ Names names_in(const Imf::ChannelList& channels, const std::string& layer) {
     const std::string bright = named("Y");
     if (!bright.empty() && !named("X").empty() && !named("Z").empty())
         return {named("X"), bright, named("Z"), names.alpha, false, true};
-    const bool chroma = !bright.empty() && !named("RY").empty() && !named("BY").empty();
+    const bool chroma =
+        bright == layer + "Y" && channels.findChannel(layer + "RY") && channels.findChannel(layer + "BY");
     return {bright, "", "", names.alpha, chroma};
 }
 
@@ -112,14 +132,16 @@ Names names_in(const Imf::ChannelList& channels) {
     for (auto channel = channels.begin(); channel != channels.end() && found.red.empty(); ++channel) {
         const std::string name = channel.name();
         all += (all.empty() ? "" : ", ") + name;
-        if (name != "A") only = name, ++count;
+        if (!same_but_for_case(name, "A")) only = name, ++count;
         const auto dot = name.rfind('.');
-        if (dot == std::string::npos || !name.ends_with(".R")) continue;
+        if (dot == std::string::npos) continue;
+        const auto own = std::string_view(name).substr(dot + 1);
+        if (!same_but_for_case(own, "R") && !same_but_for_case(own, "red")) continue;
         found = names_in(channels, name.substr(0, dot + 1));
         if (found.grey()) found = {};
     }
     if (!found.red.empty() || !found.green.empty()) return found;
-    if (count == 1) return {only, "", "", channels.findChannel("A") ? "A" : ""};
+    if (count == 1) return {only, "", "", channel_in(channels, "", "A")};
     throw Error("EXR: there is no channel R, and no channel Y, among several: " + all.substr(0, 200));
 }
 

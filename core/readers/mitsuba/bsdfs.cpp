@@ -26,7 +26,7 @@ Material one_sided(Model model) {
 /// The texture of a number. None: it has none.
 std::optional<TextureId> varying(Textures& textures, Properties& properties, std::string_view name) {
     const Node* given = properties.find(name);
-    return given && !is_colour(*given) ? std::optional(textures.of(*given)) : std::nullopt;
+    return given && !is_colour(*given) ? std::optional(textures.number_of(*given)) : std::nullopt;
 }
 
 bool may_be_above_zero(const Context& context, TextureId texture) {
@@ -132,7 +132,7 @@ Roughness Bsdfs::roughness(Properties& properties, float fallback) {
     Roughness rough{fallback, fallback, {}, Roughness::Means::alpha, law};
     const Node* alpha = properties.find("alpha");
     if (alpha && !is_colour(*alpha)) {
-        rough = {1, 1, textures_.of(*alpha), Roughness::Means::alpha, law};
+        rough = {1, 1, textures_.number_of(*alpha), Roughness::Means::alpha, law};
     } else {
         rough.u = rough.v = properties.number("alpha", fallback);
         const auto one = [&](const char* name, float other) {
@@ -208,7 +208,11 @@ ConductorMaterial Bsdfs::metal(Properties& properties) {
     if (!index) index = mirror;
     const auto part = [&](const char* key, SurfaceColour fallback) {
         const Node* given = properties.find(key);
-        if (given && !is_colour(*given)) return textures_.of(*given);
+        if (given && !is_colour(*given)) {
+            Texture inside = context_.assets.scene().textures[textures_.of(*given)];
+            inside.scale = inside.scale / outside;
+            return outside == 1 ? textures_.of(*given) : context_.assets.add(inside);
+        }
         return context_.assets.colour((given ? surface_of(*given, context_).value_or(fallback) : fallback).rgb /
                                       outside);
     };
@@ -279,7 +283,7 @@ Roughness Bsdfs::burley_roughness(Properties& properties, bool varies) {
     Roughness rough{1, 1, {}, Roughness::Means::square, {FacetLaw::Normals::ggx, FacetLaw::Masking::independent}};
     const Node* given = properties.find("roughness");
     if (given && !is_colour(*given))
-        rough.texture = textures_.of(*given);
+        rough.texture = textures_.number_of(*given);
     else
         rough.u = rough.v = std::clamp(properties.number("roughness", 0.5f), 0.0f, 1.0f);
     rough.u /= aspect, rough.v *= aspect;
@@ -288,7 +292,7 @@ Roughness Bsdfs::burley_roughness(Properties& properties, bool varies) {
 
 BurleyMaterial Bsdfs::burley(Properties& properties) {
     BurleyMaterial model;
-    const auto get = [&](const char* name) { return textures_.get(properties, name, 0.0f); };
+    const auto get = [&](const char* name) { return textures_.number(properties, name, 0.0f); };
     model.base_colour = textures_.get(properties, "base_color", 0.5f);
     model.transmission = get("spec_trans"), model.tint = get("spec_tint");
     model.anisotropic = varying(textures_, properties, "anisotropic");
@@ -304,7 +308,7 @@ BurleyMaterial Bsdfs::burley(Properties& properties) {
 
 Material Bsdfs::principled(Properties& properties) {
     BurleyMaterial model = burley(properties);
-    const auto get = [&](const char* name) { return textures_.get(properties, name, 0.0f); };
+    const auto get = [&](const char* name) { return textures_.number(properties, name, 0.0f); };
     model.metallic = get("metallic"), model.coat = get("clearcoat"), model.gloss = get("clearcoat_gloss");
     model.lets_through = may_be_above_zero(context_, model.transmission);
     float eta = 1.5f;
@@ -325,9 +329,9 @@ Material Bsdfs::principled(Properties& properties) {
 Material Bsdfs::thin_principled(Properties& properties) {
     BurleyMaterial model = burley(properties);
     model.thin = true;
-    model.eta = textures_.get(properties, "eta", 1.5f);
+    model.eta = textures_.number(properties, "eta", 1.5f);
     // 2 means that all goes to the other side
-    Texture half = context_.assets.scene().textures[textures_.get(properties, "diff_trans", 0.0f)];
+    Texture half = context_.assets.scene().textures[textures_.number(properties, "diff_trans", 0.0f)];
     half.scale *= 0.5f;
     model.through = context_.assets.add(half);
     model.lets_through = may_be_above_zero(context_, model.transmission) || may_be_above_zero(context_, model.through);

@@ -48,7 +48,7 @@ Material Bsdfs::two_sided(Properties& properties) {
 
 Material Bsdfs::mask(Properties& properties) {
     const auto inner = nested(properties, 1);
-    const TextureId opacity = textures_.get(properties, "opacity", 0.5f);
+    const TextureId opacity = textures_.number(properties, "opacity", 0.5f);
     if (inner.empty()) return grey();
     Material material = copy_of(of(*inner[0]));
     material.opacity = opacity;
@@ -58,7 +58,7 @@ Material Bsdfs::mask(Properties& properties) {
 Material Bsdfs::blend(Properties& properties) {
     const auto inner = nested(properties, 2);
     MixtureMaterial model;
-    model.amount = textures_.get(properties, "weight", 0.5f);
+    model.amount = textures_.number(properties, "weight", 0.5f);
     if (inner.empty()) return grey();
     model.first = of(*inner[0]);
     model.second = of(*inner[1]);
@@ -102,7 +102,7 @@ Material Bsdfs::bump_map(Properties& properties) {
         context_.error(properties.node(), "a bumpmap needs a texture");
         return material;
     }
-    Texture height = context_.assets.scene().textures[textures_.of(*maps[0])];
+    Texture height = context_.assets.scene().textures[textures_.number_of(*maps[0])];
     height.scale *= scale;
     material.bump_map = context_.assets.add(height);
     return material;

@@ -43,9 +43,12 @@ std::optional<Rgb> rgb(const Node& node, const Context& context) {
         context.error(node, fmt::format("a colour has one or three numbers, not {}", values->size()));
         return std::nullopt;
     }
+    const bool negative = node.tag != "float" && node.tag != "integer" &&
+                          std::ranges::any_of(*values, [](double value) { return value < 0; });
+    if (negative) context.warn(node, fmt::format("<{}> has a negative component: 0 is taken", node.tag));
     const auto at = [&](std::size_t i) {
         const float value = float((*values)[values->size() == 1 ? 0 : i]);
-        return encoded ? from_srgb(value) : value;
+        return negative && value < 0 ? 0 : encoded ? from_srgb(value) : value;
     };
     return Rgb{at(0), at(1), at(2)};
 }
@@ -241,7 +244,7 @@ constexpr std::array<NamedIor, 24> dielectrics{
 
 bool is_colour(const Node& node) {
     return node.tag == "rgb" || node.tag == "srgb" || node.tag == "spectrum" || node.tag == "blackbody" ||
-           node.tag == "float" || node.tag == "color";
+           node.tag == "float" || node.tag == "integer" || node.tag == "color";
 }
 
 std::optional<LightColour> light_of(const Node& node, const Context& context) {

@@ -42,6 +42,33 @@ std::string modern(std::string_view tag) {
     return std::string(tag);
 }
 
+std::unique_ptr<Node> text_node(std::string name, std::string value, const SourceLine& where) {
+    auto node = std::make_unique<Node>();
+    node->tag = "string", node->name = std::move(name), node->where = where;
+    node->attributes["value"] = std::move(value);
+    return node;
+}
+
+/// What <luminaire> and <camera> of versions before 0.5 called otherwise.
+void rename_parts(std::string_view tag, Node& object) {
+    const bool luminaire = tag == "luminaire", camera = tag == "camera";
+    if (!luminaire && !camera) return;
+    const std::string& type = object.type;
+    bool has_axis = false;
+    for (auto& part : object.children) {
+        std::string& name = part->name;
+        if (luminaire && name == "intensity" && (type == "area" || type == "constant")) name = "radiance";
+        if (luminaire && name == "intensity" && type == "directional") name = "irradiance";
+        if (luminaire && name == "intensity_scale" && type == "envmap") name = "scale";
+        has_axis |= name == "fov_axis" || name == "map_smaller_side";
+        if (camera && name == "map_smaller_side") {
+            const auto value = part->attribute("value");
+            part = text_node("fov_axis", value == "false" ? "larger" : "smaller", part->where);
+        }
+    }
+    if (camera && !has_axis) object.children.push_back(text_node("fov_axis", "smaller", object.where));
+}
+
 class Loader {
 public:
     Loader(Assets& assets, const std::map<std::string, std::string>& definitions)
@@ -111,6 +138,7 @@ private:
         node->where = where;
         for (const auto& attribute : xml.attributes()) take(attribute, *node);
         children(xml, source, *node, depth + 1);
+        rename_parts(tag, *node);
         if (node->tag == "ref") document_->lent.insert(node->id);
         remember(*node);
         into.children.push_back(std::move(node));

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/files/files.hpp"
 #include "core/readers/files/trimmed.hpp"
 
 namespace lightnet::mitsuba {
@@ -134,8 +135,8 @@ bool Properties::boolean(std::string_view name, bool fallback) {
     const Node* given = find(name);
     if (!given) return fallback;
     const auto word = trimmed(given->attribute("value"), between);
-    if (word == "true" || word == "True" || word == "1") return true;
-    if (word == "false" || word == "False" || word == "0") return false;
+    if (same_but_for_case(word, "true") || word == "1") return true;
+    if (same_but_for_case(word, "false") || word == "0") return false;
     context_.error(*given, fmt::format("'true' or 'false' expected, not '{}'", word.substr(0, 32)));
     return fallback;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/readers/images/image_facts.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
 
@@ -46,12 +47,42 @@ ImageTexture::Channel channel_of(Properties& properties) {
 
 std::optional<TextureId> Textures::maybe(Properties& properties, std::string_view name) {
     const Node* given = properties.find(name);
-    return given ? std::optional(of(*given)) : std::nullopt;
+    if (!given) return std::nullopt;
+    const TextureId made = of(*given);
+    const Texture& texture = context_.assets.scene().textures[made];
+    if (name == "reflectance" && std::holds_alternative<std::monostate>(texture.pattern) &&
+        max_component(texture.scale) > 1)
+        context_.warn(*given, "'reflectance' is above 1: no surface reflects more light than it gets, and 1 is taken");
+    return made;
 }
 
 TextureId Textures::get(Properties& properties, std::string_view name, Rgb fallback) {
     const auto given = maybe(properties, name);
     return given ? *given : context_.assets.colour(fallback);
+}
+
+TextureId Textures::number(Properties& properties, std::string_view name, float fallback) {
+    return as_number(get(properties, name, fallback));
+}
+
+// Mitsuba's Texture::eval_1(), in version 0.6 Spectrum::average()
+TextureId Textures::as_number(TextureId colours) {
+    const bool older = context_.document.version < 2;
+    const auto grey = [&](Rgb c) { return Rgb{1, 1, 1} * (older ? (c.r + c.g + c.b) / 3 : luminance(c)); };
+    Texture texture = context_.assets.scene().textures[colours];
+    const Rgb scale = texture.scale;
+    if (scale.r != scale.g || scale.g != scale.b) texture.scale = grey(scale);
+    bool same = texture.scale == scale;
+    if (auto* image = std::get_if<ImageTexture>(&texture.pattern);
+        image && image->channel == ImageTexture::Channel::colour && is_coloured(*image->image)) {
+        image->channel = older ? ImageTexture::Channel::mean : ImageTexture::Channel::luminance;
+        same = false;
+    } else if (auto* squares = std::get_if<CheckerTexture>(&texture.pattern)) {
+        const CheckerTexture before = *squares;
+        squares->even = as_number(before.even), squares->odd = as_number(before.odd);
+        same = same && squares->even == before.even && squares->odd == before.odd;
+    }
+    return same ? colours : context_.assets.add(texture);
 }
 
 TextureId Textures::of(const Node& node) {

@@ -23,6 +23,9 @@ public:
     }
     /// A colour, a texture, or a reference to one. What is wrong is reported and grey.
     TextureId of(const Node& node);
+    /// As get() and of(), for one number: of colours it is the luminance, before version 2 their mean.
+    TextureId number(Properties& properties, std::string_view name, float fallback);
+    TextureId number_of(const Node& node) { return as_number(of(node)); }
     /// As of(), where what it covers shines: colours in it are light.
     TextureId of_light(const Node& node);
 
@@ -35,6 +38,7 @@ private:
     TextureId checkerboard(Properties& properties);
     TextureId scaled(Properties& properties);
     TextureId raw(Properties& properties);
+    TextureId as_number(TextureId colours);
 
     const Context& context_;
     bool shines_ = false;                                                    // what is being made

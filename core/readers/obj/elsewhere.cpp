@@ -42,14 +42,18 @@ std::shared_ptr<const Image> find_picture(const std::string& from, const std::st
                                           const SourceLine& where, const std::string& instead, Assets& assets) {
     const std::string written = written_by(from, name);
     const Assets::Picture first = assets.try_picture(written, encoding);
-    if (first.image) return first.image;
+    const auto remark_on = [&](const std::string& place, const Assets::Picture& found) {
+        if (!found.remark.empty()) assets.report().warn(where, fmt::format("image '{}': {}", place, found.remark));
+        return found.image;
+    };
+    if (first.image) return remark_on(written, first);
     const auto warn = [&](const std::string& done) {
         assets.report().warn(where, fmt::format("image '{}': {}: {}", written, first.problem, done));
     };
     for (const std::string& place : assets.other_places(from, written))
-        if (const auto& other = assets.try_picture(place, encoding).image) {
+        if (const Assets::Picture& other = assets.try_picture(place, encoding); other.image) {
             warn("'" + place + "' is taken");
-            return other;
+            return remark_on(place, other);
         }
     warn(instead);
     return nullptr;

@@ -9,21 +9,14 @@
 #include <string_view>
 
 #include "core/readers/common/spectra.hpp"
+#include "core/readers/images/image_facts.hpp"
 #include "core/readers/obj/elsewhere.hpp"
 #include "core/readers/obj/lines.hpp"
+#include "core/readers/obj/maps.hpp"
 #include "core/readers/obj/spectral.hpp"
 
 namespace lightnet::obj {
 namespace {
-
-/// An image as an MTL statement names it, with its options.
-struct Map {
-    std::string file;
-    SourceLine where;
-    Vec2 scale{1, 1}, offset{0, 0};
-    bool clamp = false;
-    float bump = 1;
-};
 
 /// All that the statements say of one material.
 struct Statements {
@@ -85,7 +78,7 @@ private:
         } else if (numbers.contains(word)) {
             if (const auto value = number(word)) material.numbers[word] = *value;
         } else if (const auto known = maps.find(word); known != maps.end()) {
-            if (auto read = map(word)) material.maps[known->second] = *read;
+            if (auto read = read_map(word, lines_, report_)) material.maps[known->second] = *read;
         } else {
             report_.warn(lines_.where(),
                          fmt::format("{} '{}' is left out: the picture shows nothing of it",
@@ -130,65 +123,6 @@ private:
         return {channel(0), channel(1), channel(2)};
     }
 
-    std::optional<Map> map(const std::string& word) {
-        Map map;
-        map.where = lines_.where();
-        for (;;) {
-            auto ahead = lines_;
-            const std::string option(ahead.word());
-            if (!option.starts_with('-')) break;
-            lines_ = ahead;
-            map_option(option, map);
-        }
-        map.file = lines_.rest();
-        if (!map.file.empty()) return map;
-        report_.warn(map.where, fmt::format("'{}' names no file and is left out", word));
-        return std::nullopt;
-    }
-
-    void map_option(const std::string& option, Map& map) {
-        if (option == "-clamp") {
-            map.clamp = lines_.word() == "on";
-        } else if (option == "-bm") {
-            map.bump = lines_.number(report_).value_or(1);
-        } else if (option == "-s" || option == "-o") {
-            Vec2& pair = option == "-s" ? map.scale : map.offset;
-            const auto values = numbers_ahead(3);
-            if (!values.empty()) pair.x = values[0];
-            if (values.size() > 1) pair.y = values[1];
-        } else if (option == "-t" || option == "-mm") {
-            const auto values = numbers_ahead(option == "-t" ? 3 : 2);
-            const bool usual = option == "-t" ? std::ranges::all_of(values, [](float value) { return value == 0; })
-                                              : values == std::vector<float>{0, 1};
-            if (!usual)
-                report_.warn(map.where, fmt::format("option '{}' of a map is left out: it lies as without", option));
-        } else if (option == "-cc" || option == "-imfchan" || option == "-boost" || option == "-colorspace") {
-            const std::string value(lines_.word().substr(0, 32));
-            if (option != "-cc" || value != "off")
-                report_.warn(map.where,
-                             fmt::format("option '{} {}' of a map is left out: it is as without", option, value));
-        } else if (option == "-blendu" || option == "-blendv" || option == "-type" || option == "-texres") {
-            lines_.word();  // of no effect on what is there
-        } else {
-            report_.warn(map.where, fmt::format("unknown option '{}' of a map is left out: it is as without",
-                                                option.substr(0, 32)));
-        }
-    }
-
-    /// Up to so many numbers; stops before a word that is none.
-    std::vector<float> numbers_ahead(std::size_t most) {
-        std::vector<float> values;
-        while (values.size() < most) {
-            auto ahead = lines_;
-            const auto word = ahead.word();
-            if (word.empty() || word.find_first_not_of("+-.0123456789eE") != word.npos) break;
-            const auto value = lines_.number(report_);
-            if (!value) break;
-            values.push_back(*value);
-        }
-        return values;
-    }
-
     Lines lines_;
     Assets& assets_;
     Report& report_;
@@ -206,11 +140,12 @@ public:
         material.name = said.name;
         name_unused(said, material);
         opacity(said, material);
-        if (const auto map = picture(said, "norm", {Encoding::Curve::linear, 1}))
+        if (auto map = picture(said, "norm", {Encoding::Curve::linear, 1})) {
+            map->scale = {1, 1, 1};
             material.normal_map = assets_.add(*map);
-        if (auto map = picture(said, "bump", {Encoding::Curve::linear, 1})) {
-            const float strength = said.maps.find("bump")->second.bump;
-            map->scale = {strength, strength, strength};
+        }
+        if (auto map = number(said, "bump", false)) {
+            map->scale *= said.maps.find("bump")->second.bump;
             material.bump_map = assets_.add(*map);
         }
         return {assets_.add(std::move(material)), emission(said)};
@@ -236,7 +171,7 @@ private:
     std::optional<Texture> picture(const Statements& said, std::string_view key, const Encoding& encoding = {}) {
         const auto map = said.maps.find(key);
         if (map == said.maps.end()) return std::nullopt;
-        const auto& [file, where, scale, offset, clamp, bump] = map->second;
+        const auto& [file, where, scale, offset, clamp, bump, gain, channel] = map->second;
         ImageTexture pattern;
         const bool coloured = said.colours.contains(key) && !is_black(said.colour(key, {}));
         const std::string instead = coloured      ? fmt::format("{} alone is taken", key)
@@ -246,7 +181,23 @@ private:
         if (!pattern.image) return std::nullopt;
         pattern.wrap_u = pattern.wrap_v = clamp ? Wrap::clamp : Wrap::repeat;
         pattern.uv = {scale, offset, 0};
-        return Texture{{1, 1, 1}, pattern, false};
+        return Texture{Rgb{1, 1, 1} * gain, pattern, false};
+    }
+
+    /// A picture of numbers: the channel that is named, else its luminance; what `alpha` it has first, where it is
+    /// asked.
+    std::optional<Texture> number(const Statements& said, std::string_view key, bool alpha) {
+        auto texture = picture(said, key, {Encoding::Curve::linear, 1});
+        if (!texture) return texture;
+        auto& pattern = std::get<ImageTexture>(texture->pattern);
+        pattern.channel = said.maps.find(key)->second.channel;
+        if (pattern.channel != ImageTexture::Channel::colour) return texture;
+        if (alpha && is_translucent(*pattern.image))
+            pattern.channel = ImageTexture::Channel::alpha;
+        else
+            pattern.channel =
+                is_coloured(*pattern.image) ? ImageTexture::Channel::luminance : ImageTexture::Channel::red;
+        return texture;
     }
 
     TextureId coloured(const Statements& said, std::string_view key, Rgb fallback) {
@@ -255,13 +206,20 @@ private:
         const Rgb factor = said.colour(key, {1, 1, 1});
         if (!texture && said.maps.contains(key) && (is_black(factor) || !said.colours.contains(key)))
             return assets_.grey(0.5f);
-        if (!texture) return assets_.colour(said.colour(key, fallback));
-        texture->scale = is_black(factor) ? Rgb{1, 1, 1} : factor;
+        if (!texture) {
+            const Rgb colour = said.colour(key, fallback);
+            if (max_component(colour) > 1)
+                assets_.report().warn(said.where, fmt::format("'{}' is above 1: no surface reflects more light than it "
+                                                              "gets, and 1 is taken",
+                                                              key));
+            return assets_.colour(colour);
+        }
+        if (!is_black(factor)) texture->scale *= factor;
         return assets_.add(*texture);
     }
 
     std::optional<TextureId> factor(const Statements& said, std::string_view key) {
-        const auto texture = picture(said, key, {Encoding::Curve::linear, 1});
+        const auto texture = number(said, key, false);
         return texture ? std::optional(assets_.add(*texture)) : std::nullopt;
     }
 
@@ -331,11 +289,9 @@ private:
     void opacity(const Statements& said, Material& material) {
         const bool glass = std::holds_alternative<DielectricMaterial>(material.model);
         const float opaque = said.numbers.contains("d") ? said.number("d", 1) : 1 - said.number("Tr", 0);
-        auto map = picture(said, "d", {Encoding::Curve::linear, 1});
+        auto map = number(said, "d", true);
         if (map) {
-            auto& pattern = std::get<ImageTexture>(map->pattern);
-            pattern.channel = pattern.image->has_alpha() ? ImageTexture::Channel::alpha : ImageTexture::Channel::red;
-            if (opaque > 0) map->scale = {opaque, opaque, opaque};
+            if (opaque > 0) map->scale *= opaque;
             material.opacity = assets_.add(*map);
         } else if (opaque < 1 && !glass) {
             material.opacity = assets_.grey(std::max(opaque, 0.0f));

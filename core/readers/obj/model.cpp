@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -17,6 +19,23 @@
 
 namespace lightnet::obj {
 namespace {
+
+float from_srgb(float value) { return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f); }
+
+/// Statements that say what programs show of curves, and how they draw.
+bool has_no_effect(std::string_view word) {
+    constexpr std::string_view words[] = {"lod", "bevel",      "c_interp",  "d_interp",
+                                          "mg",  "shadow_obj", "trace_obj", "maplib"};
+    return std::ranges::find(words, word) != std::end(words);
+}
+
+/// Colours of vertices in a file of which some are above 1.
+void decode(Part& part, Report& report) {
+    if (part.mesh.colours.empty()) return;
+    report.warn(part.where, "colours of vertices above 1 are taken as parts of 255, as sRGB");
+    for (Rgb& colour : part.mesh.colours)
+        colour = {from_srgb(colour.r / 255), from_srgb(colour.g / 255), from_srgb(colour.b / 255)};
+}
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
@@ -127,6 +146,8 @@ public:
         Model model;
         for (auto& part : parts_)
             if (!part.part.mesh.triangles.empty()) model.parts.push_back(finished(std::move(part)));
+        if (std::ranges::any_of(colours_, [](Rgb colour) { return max_component(colour) > 1; }))
+            for (Part& part : model.parts) decode(part, report_);
         model.libraries = std::move(libraries_);
         return model;
     }
@@ -153,10 +174,10 @@ private:
         if (word == "vt") return uv();
         if (word == "f" || word == "fo") return face();
         if (word == "usemtl") return use_material();
-        if (word == "mtllib") return libraries_.push_back({std::string(lines_.rest()), lines_.where()});
+        if (word == "mtllib") return libraries_.push_back({std::string(trimmed(lines_.rest(), "\"")), lines_.where()});
         if (word == "s") return smooth();
         if (word == "o") return object();
-        if (word == "g" || word == "vp") return;
+        if (word == "g" || word == "vp" || has_no_effect(word)) return;
         if (word == "l" || word == "p")
             report_.warn(lines_.where(), "lines and points have no surface and are left out");
         else
@@ -178,9 +199,17 @@ private:
         if (!in_reach(positions_.back())) report_.error(lines_.where(), "the vertex lies out of reach");
         std::vector<float> more;
         while (const auto value = lines_.number(report_)) more.push_back(*value);
-        // "x y z r g b"; one more number would be w, of curves
-        if (more.size() == 3 && colours_.size() + 1 == positions_.size())
+        // "x y z", "x y z w" with a weight of curves, "x y z r g b", "x y z r g b a"
+        const auto left_out = [&](const char* what) {
+            report_.warn(lines_.where(), fmt::format("{} is left out: the picture shows nothing of it", what));
+        };
+        if (more.size() == 2 || more.size() > 4) left_out("what stands behind the position of a vertex");
+        if (more.size() == 4 && more[3] != 1) left_out("the alpha of a vertex");
+        if (more.size() != 3 && more.size() != 4) return;
+        if (colours_.size() + 1 == positions_.size())
             colours_.push_back({more[0], more[1], more[2]});
+        else
+            left_out("the colour of a vertex behind others that have none");
     }
 
     void normal() { normals_.push_back(triple("a normal").value_or(Vec3{})); }

@@ -10,6 +10,7 @@
 
 #include "core/readers/common/moment.hpp"
 #include "core/readers/files/gzip.hpp"
+#include "core/readers/files/other_places.hpp"
 #include "core/readers/pbrt/builder.hpp"
 #include "core/readers/pbrt/syntax.hpp"
 #include "core/readers/pbrt/version.hpp"
@@ -27,15 +28,23 @@ Bytes unpacked(const Bytes& bytes) {
 /// The first sign of a version: in the main file, then in those that it includes, as long as there is none.
 std::optional<VersionSign> find_version(Files& files, const std::string& main) {
     constexpr std::size_t most_files = 64;
-    std::vector<std::string> names{main};
-    for (std::size_t i = 0; i < names.size() && i < most_files; ++i) try {
+    struct Named {
+        std::string path, from;
+    };
+    std::vector<Named> names{{main, main}};
+    for (std::size_t i = 0; i < names.size() && i < most_files; ++i) {
+        const auto [path, from] = names[i];
+        try {
             std::vector<std::string> included;
-            if (auto sign = version_sign(names[i], unpacked(files.read(names[i])), included)) return sign;
-            for (const auto& name : included) names.push_back(beside(main, name));
+            if (auto sign = version_sign(path, unpacked(files.read(path)), included)) return sign;
+            for (const auto& name : included) names.push_back({beside(main, name), path});
         } catch (const MissingHere&) {
             throw;
-        } catch (const Error&) {  // told when it is read
+        } catch (const Error&) {  // told when it is read; where it is then, it is here
+            if (const auto others = other_places(files, from, path); i > 0 && !others.empty())
+                names.push_back({others[0], others[0]});
         }
+    }
     return std::nullopt;
 }
 
@@ -64,16 +73,15 @@ public:
 private:
     void include(const Statement& statement) {
         const std::string& name = statement.names[0];
-        const std::string path = sources_.path(name);
-        if (std::find(open_.begin(), open_.end(), path) != open_.end())
-            return sources_.report.error(statement.where, fmt::format("'{}' includes itself", name));
         if (open_.size() > deepest_include || ++files_ > most_includes)
             return sources_.report.error(statement.where,
                                          fmt::format("'{}': files include each other too deeply or too often", name));
-        const auto bytes = sources_.read(name, statement.where);
-        if (!bytes) return;
+        const auto found = sources_.find(name, statement.where);
+        if (!found) return;
+        if (std::find(open_.begin(), open_.end(), found->path) != open_.end())
+            return sources_.report.error(statement.where, fmt::format("'{}' includes itself", name));
         if (statement.directive == "Import") builder_.enter();
-        file(path, *bytes);
+        file(found->path, found->bytes);
         if (statement.directive == "Import") builder_.leave();
     }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/readers/files/other_places.hpp"
+#include "core/readers/images/image_facts.hpp"
 
 namespace lightnet::pbrt {
 namespace {
@@ -17,7 +18,7 @@ constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;  // of up to 16 by
 std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encoding& encoding, const SourceLine& where) {
     const Key key{sources_.path(name), encoding.curve, encoding.gamma};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    orders_.push_back(std::make_unique<Order>(Order{name, where, std::make_shared<Image>(), {}}));
+    orders_.push_back(std::make_unique<Order>(Order{name, where, std::make_shared<Image>()}));
     Order& order = *orders_.back();
     known_.emplace(key, order.image);
     if (const Bytes bytes = read(order))
@@ -55,9 +56,10 @@ Bytes Pictures::expected(const std::string& path) const {
 void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding) {
     if (pixels_ > most_pixels) return;
     try {
-        Image image = read_image(*bytes, encoding);
+        auto [image, remark] = sound(read_image(*bytes, encoding));
         pixels_ += std::uint64_t{image.width} * image.height;
         *order.image = std::move(image);
+        order.remark = std::move(remark);
     } catch (const MissingHere& problem) {
         order.problem = problem.what(), order.here_only = true;
     } catch (const std::exception& problem) {
@@ -69,6 +71,8 @@ void Pictures::finish() {
     thread_pool_.finish();
     for (; reported_ < orders_.size(); ++reported_) {
         const Order& order = *orders_[reported_];
+        if (!order.remark.empty())
+            sources_.report.warn(order.where, fmt::format("image '{}': {}", order.name, order.remark));
         if (order.problem.empty()) continue;
         if (order.here_only) throw MissingHere(order.name, order.problem);
         sources_.report.warn(order.where,

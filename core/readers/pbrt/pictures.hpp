@@ -33,7 +33,8 @@ private:
         std::string name;
         SourceLine where;
         std::shared_ptr<Image> image;
-        std::string problem;     // "": none
+        std::string problem{};   // "": none
+        std::string remark{};    // what is strange about it; "": nothing
         bool here_only = false;  // elsewhere it may be had
     };
     using Key = std::tuple<std::string, Encoding::Curve, float>;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/suggestion.hpp"
+#include "core/readers/files/other_places.hpp"
 #include "core/readers/pbrt/older_light.hpp"
 
 namespace lightnet::pbrt {
@@ -135,13 +136,24 @@ std::optional<Rgb> colour_of(const Parameter& parameter, Seen as, const Sources&
 
 }  // namespace
 
-std::optional<Bytes> Sources::read(const std::string& name, const SourceLine& where) const {
+std::optional<Sources::Found> Sources::find(const std::string& name, const SourceLine& where) const {
     try {
-        return files.read(path(name));
+        return Found{path(name), files.read(path(name))};
+    } catch (const MissingHere&) {
+        throw;
     } catch (const Error& problem) {
+        for (const std::string& place : other_places(files, where.file, path(name))) {
+            report.warn(where, fmt::format("'{}': {}: '{}' is taken", name, problem.what(), place));
+            return Found{place, files.read(place)};
+        }
         report.error(where, fmt::format("can't read '{}': {}", name, problem.what()));
         return std::nullopt;
     }
+}
+
+std::optional<Bytes> Sources::read(const std::string& name, const SourceLine& where) const {
+    auto found = find(name, where);
+    return found ? std::optional(std::move(found->bytes)) : std::nullopt;
 }
 
 std::optional<LightColour> light_of(const Parameter& parameter, const Sources& sources) {

@@ -23,6 +23,13 @@ struct Sources {
 
     bool older() const { return version == Version::v3; }
     std::string path(const std::string& name) const { return beside(main, name); }
+    /// A file that is named, where it is: from the main file's folder, else in other large and small letters, else
+    /// beside the file that names it. None: reported; elsewhere than named: warned of.
+    struct Found {
+        std::string path;
+        Bytes bytes;
+    };
+    std::optional<Found> find(const std::string& name, const SourceLine& where) const;
     /// The bytes of a file that is named at `where`; none: reported.
     std::optional<Bytes> read(const std::string& name, const SourceLine& where) const;
 };

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/readers/images/image_facts.hpp"
 #include "core/readers/pbrt/textures.hpp"
 
 namespace lightnet::pbrt {
@@ -17,17 +18,14 @@ void Textures::finish() {
     pictures_.finish();
     if (sources_.older()) return;  // pbrt-v3 knows of no alpha
     std::map<const Image*, bool> translucent;
-    const auto is_translucent = [&](const Image* image) {
+    const auto shines_through = [&](const Image* image) {
         const auto [place, fresh] = translucent.try_emplace(image, false);
-        if (fresh && image->has_alpha())
-            for (std::uint32_t y = 0; y < image->height && !place->second; ++y)
-                for (std::uint32_t x = 0; x < image->width && !place->second; ++x)
-                    place->second = image->alpha(x, y) != 1;
+        if (fresh) place->second = is_translucent(*image);
         return place->second;
     };
     for (auto& texture : scene_.textures)
         if (auto* picture = std::get_if<ImageTexture>(&texture.pattern);
-            picture && picture->channel == ImageTexture::Channel::mean && is_translucent(picture->image.get()))
+            picture && picture->channel == ImageTexture::Channel::mean && shines_through(picture->image.get()))
             picture->channel = ImageTexture::Channel::alpha;
 }
 

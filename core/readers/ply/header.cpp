@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/readers/files/trimmed.hpp"
 
 namespace lightnet::ply {
 namespace {
@@ -175,7 +176,10 @@ Header read_header(Input& input) {
     std::size_t properties = 0;
     if (input.line() != "ply") fail("the file does not begin with 'ply'");
     for (;;) {
-        const auto words = words_of(input.line());
+        const auto line = input.line();
+        const auto words = words_of(line);
+        if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile" && header.texture.empty())
+            header.texture = trimmed(line.substr(static_cast<std::size_t>(words[2].data() - line.data())), " \t");
         if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
         if (words[0] == "end_header") break;
         if (words[0] == "format" && words.size() >= 2) {

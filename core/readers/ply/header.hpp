@@ -64,6 +64,7 @@ private:
 struct Header {
     Format format = Format::ascii;
     std::vector<Element> elements;
+    std::string texture{};  // the picture that 'comment TextureFile' names, as MeshLab writes it; "": none
 };
 
 /// Throws Error when it is broken.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/unwanted.hpp"
+#include "core/readers/common/mesh_tools.hpp"
 #include "core/readers/ply/header.hpp"
 
 namespace lightnet {
@@ -170,7 +171,7 @@ void read_vertices(Input& input, Format format, const Element& element, const Na
     }
 }
 
-// Up to `most` faces. Returns how many.
+// Up to `most` faces. Returns how many. Those of more than three corners are cut like a fan.
 std::uint64_t read_faces(Input& input, Format format, const Property& list, std::uint64_t most, Mesh& mesh) {
     if (const std::uint64_t count = input.plain_triangles(format, list, most, mesh.triangles)) return count;
     const std::size_t corners = list_length(input, format, list);
@@ -252,17 +253,44 @@ void check_indices(const Mesh& mesh) {
                                  mesh.positions.size()));
 }
 
+/// Faces that were cut like a fan: their triangles, from the first of them.
+struct Fan {
+    std::uint32_t first, triangles;
+};
+
+// A fan covers what a concave polygon leaves open. Vertices may stand behind faces, so that this comes last.
+void cut_inside(std::span<const Fan> fans, Mesh& mesh) {
+    std::vector<std::uint32_t> corners;
+    for (const Fan& fan : fans) {
+        end_if_unwanted();
+        corners.assign({mesh.triangles[fan.first][0], mesh.triangles[fan.first][1]});
+        for (std::uint32_t i = 0; i < fan.triangles; ++i) corners.push_back(mesh.triangles[fan.first + i][2]);
+        std::uint32_t next = fan.first;
+        triangulate(mesh.positions, corners, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            mesh.triangles[next++] = {a, b, c};
+        });
+    }
+}
+
 AttributedMesh read_all(std::span<const std::byte> bytes, const Names& of_vertices, const Names& of_faces) {
     Input input({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const ply::Header header = ply::read_header(input);
     AttributedMesh result;
     bool vertices = false, faces = false;
+    std::vector<Fan> fans;
+    const auto read_and_note = [&](Input& from, Format format, const Property& list, std::uint64_t most, Mesh& mesh) {
+        const std::size_t before = mesh.triangles.size();
+        const std::uint64_t count = read_faces(from, format, list, most, mesh);
+        if (const std::size_t made = mesh.triangles.size() - before; count == 1 && made > 1)
+            fans.push_back({static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(made)});
+        return count;
+    };
     for (const auto& element : header.elements) {
         check_room(input, header.format, element);
         if (element.name == "vertex" && !std::exchange(vertices, true)) {
             read_vertices(input, header.format, element, of_vertices, result.mesh);
         } else if (element.name == "face" && !std::exchange(faces, true)) {
-            read_lists(input, header.format, element, of_faces, result, read_faces);
+            read_lists(input, header.format, element, of_faces, result, read_and_note);
         } else if (element.name == "tristrips" && !std::exchange(faces, true)) {
             read_lists(input, header.format, element, of_faces, result, read_strip);
         } else {
@@ -272,6 +300,7 @@ AttributedMesh read_all(std::span<const std::byte> bytes, const Names& of_vertic
     }
     if (!vertices || !faces) fail("there are no vertices or no faces");
     check_indices(result.mesh);
+    cut_inside(fans, result.mesh);
     result.found = !result.mesh.colours.empty() || !result.of_triangles.empty();
     return result;
 }
@@ -279,6 +308,11 @@ AttributedMesh read_all(std::span<const std::byte> bytes, const Names& of_vertic
 }  // namespace
 
 Mesh read_ply(std::span<const std::byte> bytes) { return read_all(bytes, {}, {}).mesh; }
+
+std::string texture_of_ply(std::span<const std::byte> bytes) {
+    Input input({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return ply::read_header(input).texture;
+}
 
 std::vector<std::string> skipped_in_ply(std::span<const std::byte> bytes) {
     Input input({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -12,10 +12,15 @@
 namespace lightnet {
 
 /// The mesh of a PLY file: positions, normals (nx ny nz), texture coordinates (u v, s t and their like) and colours
-/// (red green blue) per vertex; faces of three or more corners, cut into triangles like a fan, and triangle strips.
+/// (red green blue) per vertex; faces of three or more corners, cut into triangles inside of them, and triangle
+/// strips.
 /// Other properties and elements are skipped. Throws Error (without a file name) when the bytes are no sound PLY file;
 /// allocates no more than a small multiple of them.
 Mesh read_ply(std::span<const std::byte> bytes);
+
+/// The name of the picture that it says it wears ("comment TextureFile", as MeshLab writes it); "": none. Throws Error
+/// as read_ply() does.
+std::string texture_of_ply(std::span<const std::byte> bytes);
 
 /// What such a file holds that no picture of it alone shows: "property 'alpha' of 'vertex'", "element 'edge'", in the
 /// order of the file. Throws Error as read_ply() does.

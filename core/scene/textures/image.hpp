@@ -31,6 +31,8 @@ public:
     Image(std::uint32_t wide, std::uint32_t high, Coded coded);
 
     bool empty() const { return width == 0 || height == 0; }
+    /// Does it keep whole numbers, which its curve makes light of?
+    bool coded() const { return curve_ != nullptr; }
     bool has_alpha() const { return channels_ == 2 || channels_ == 4; }
     /// The colour of a pixel that is there.
     Rgb colour(std::uint32_t x, std::uint32_t y) const;

@@ -39,6 +39,8 @@ Rgb channel_of(const Image& image, std::uint32_t x, std::uint32_t y, ImageTextur
     switch (channel) {
         case Channel::mean:
             return grey((colour.r + colour.g + colour.b) / 3);
+        case Channel::luminance:
+            return grey(luminance(colour));
         case Channel::red:
             return grey(colour.r);
         case Channel::green:

@@ -37,8 +37,9 @@ struct ImageTexture {
     std::shared_ptr<const Image> image{};  // shared by all textures of one file
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
     UvTransform uv{};
-    enum class Channel { colour, mean, red, green, blue, alpha } channel = Channel::colour;  // one, or their mean: grey
-    bool nearest = false;                                                                    // else bilinear
+    /// One of them, or their mean or luminance: grey.
+    enum class Channel { colour, mean, red, green, blue, alpha, luminance } channel = Channel::colour;
+    bool nearest = false;  // else bilinear
 };
 void visit_members(Is<ImageTexture> auto& texture, const auto& visit) {
     auto& [image, wrap_u, wrap_v, uv, channel, nearest] = texture;
