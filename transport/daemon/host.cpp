@@ -21,6 +21,7 @@ using packet::Type;
 constexpr auto quiet_before_leaving = std::chrono::milliseconds(300);  // askers may not know yet that it leaves
 constexpr std::size_t most_told = 1000;                                // strangers, one by one
 constexpr int most_failed_turns = 20;                                  // of serve(): it can't go on
+constexpr auto turn_interval = std::chrono::milliseconds(100);
 constexpr auto goodbye_deadline = std::chrono::milliseconds(500);
 
 // Says who was turned away, and what would let him in; once, as there may be floods.
@@ -99,6 +100,9 @@ std::string Host::endpoint() const { return service_->door.endpoint(); }
 
 void Host::serve(const std::atomic<bool>& stop) {
     auto& s = *service_;
+    s.leadership->take();
+    const std::unique_ptr<Leadership, void (*)(Leadership*)> led(s.leadership.get(),
+                                                                 [](auto* its) { its->give_back(); });
     s.needed = Clock::now();
     int failed = 0;  // turns, one after the other
     for (bool on = true; on;) {
@@ -124,11 +128,12 @@ bool Host::Service::turn(const std::atomic<bool>& stop) {
         leaving.reset();
     }
     const auto readable = wait();
-    if (readable.replies) forward_replies();
+    if (readable.replies) traffic.send();
     if (readable.door) {
         door.let_in();
-        while (auto frames = door.receive(Clock::now())) arrived(std::move(*frames));
+        while (auto arrival = traffic.receive(Clock::now())) arrived(std::move(*arrival));
     }
+    if (run && door.tally().heard > lease.last_heard()) lease.heard(door.tally().heard);
     look_at_arriving();
     look_at_ending();
     door.go_on(now);
@@ -160,9 +165,9 @@ void Host::Service::survive(const std::exception& error) {
 
 bool Host::hangs() const { return !service_->background.done_within(goodbye_deadline); }
 
-void Host::Service::arrived(Frames frames) {
+void Host::Service::arrived(PlaceTraffic::Arrival arrival) {
+    auto& [frames, key] = arrival;
     const auto route = text_of(frames[0]);
-    if (run && route == launcher) lease.heard(Clock::now());
     if (frames.size() == 2 && frames[1].size() == 0) {  // what went through the launcher may be lost
         if (gateway && route == launcher) gateway->request_resend("");
         return;
@@ -171,12 +176,10 @@ void Host::Service::arrived(Frames frames) {
     const auto header_bytes = bytes_of(frames[frames.size() - 2]);
     const auto header = packet::peek_header(header_bytes);
     const bool plain = frames.size() == 3;
-    const auto key = door.key();
     if (header && !rights.may(key, header->type, run && header->run == run->id())) {
         ++broken_packets;
         return;
     }
-    if (header && plain && packet::is_ask(header->type)) return work(*header, std::move(frames));
     if (header && frames.size() == 4 && header->type < Type::hello) return from_another(*header, std::move(frames));
     const auto body = bytes_of(frames.back());
     const bool sound = header && plain && packet::read_header(header_bytes, body);
@@ -211,23 +214,9 @@ void Host::Service::damaged(const std::string& route) {
     door.send(resend);
 }
 
-// Not looked into: the place checks and decodes.
-void Host::Service::work(const packet::Header& header, Frames frames) {
-    if (!run || header.run != run->id() || !run->serving()) return;
-    if (!run->transport()->forward(header.place, frames)) {
-        frames.resize(frames.size() - 2);
-        frames.emplace_back();
-        frames.emplace_back();
-        door.send(frames);  // to be sent again
-        return;
-    }
-    given += header.width > 0;
-    if (leaving) leaving->last_work = Clock::now();
-}
-
 // [route][address][header][body], through the launcher: an ask, or the reply to one of ours.
 void Host::Service::from_another(const packet::Header& header, Frames frames) {
-    if (packet::is_ask(header.type)) return work(header, std::move(frames));
+    if (packet::is_ask(header.type)) return traffic.ask(header, std::move(frames));
     if (!run || header.run != run->id()) return;
     const auto address = unseal(bytes_of(frames[1]));
     frames.erase(frames.begin(), frames.begin() + 2);
@@ -241,21 +230,13 @@ void Host::Service::advance() {
             if (run->state() == HostedRun::State::fetching) tell_needs();
             if (run->state() == HostedRun::State::building && run->has_last_scene())
                 options.log("has its scene from the run before");
-            if (run->serving()) door.send(launcher, Type::ready, run->id(), {});
+            if (!run->serving()) continue;
+            traffic.serve(run->id(), run->transport());
+            door.send(launcher, Type::ready, run->id(), {});
         }
     } catch (const std::exception& error) {
         door.send(launcher, Type::broken, run->id(), Fields{}.set("text", words_of(error)));
         drop_run(words_of(error));
-    }
-}
-
-void Host::Service::forward_replies() {
-    if (!run || !run->serving()) return;
-    while (auto frames = run->transport()->receive()) {
-        if (frames->size() < 3) continue;
-        const auto header = packet::peek_header(bytes_of((*frames)[frames->size() - 2]));
-        answered += !header || header->width > 0;  // as in work()
-        door.send(*frames);
     }
 }
 
@@ -286,7 +267,7 @@ void Host::Service::leave(Clock::time_point now, bool for_good) {
         leaving->for_good = true;
         return;
     }
-    leaving = Leaving{now, now, false, std::nullopt, for_good};
+    leaving = Leaving{now, false, std::nullopt, for_good};
     if (!run) return;
     options.log(for_good ? "finishes what it has, then stops" : "finishes what it has of this run");
     door.send(launcher, Type::leaving, run->id(), {});
@@ -300,16 +281,32 @@ bool Host::Service::gone(Clock::time_point now) {
     if (leaving->farewell) return !run && said && now - *leaving->farewell > goodbye_deadline;
     if (!run) return !ending || now - leaving->since > goodbye_deadline;
     if (now - leaving->since > options.drain) return true;
-    const bool idle = answered >= given && !door.waiting() && now - leaving->last_work > quiet_before_leaving;
+    const auto last_work = std::max(leaving->since, traffic.last_work());
+    const bool idle = traffic.is_idle() && !door.waiting() && now - last_work > quiet_before_leaving;
     if (!leaving->known || !idle) return false;
     end(launcher, run->id());
     leaving->farewell = now;
     return false;
 }
 
+// Leaves the door and the traffic of places to these, if they idle. True: a turn is due.
+bool Host::Service::rest(Time now) {
+    if (!run || !run->serving() || leaving || !leadership->wanted(now)) return false;
+    const auto others = [&](Poll& poll) {
+        poll.add(background.handle());
+        door.watch(poll, HostDoor::Watched::callers);
+        peers->watch(poll);
+        gateway->watch(poll);
+        poll.add(run->news());
+        poll.add(run->places()->news());
+    };
+    return leadership->rest(others, run->transport()->replies(), turn_interval) != Leadership::Rest::lapsed;
+}
+
 Host::Service::Readable Host::Service::wait() {
+    const bool due = rest(Clock::now());
     Poll poll;
-    door.watch(poll);
+    door.watch(poll, HostDoor::Watched::all);
     const std::size_t background_item = poll.size();
     poll.add(background.handle());
     if (peers) peers->watch(poll);
@@ -323,9 +320,9 @@ Host::Service::Readable Host::Service::wait() {
     const std::size_t first_place = poll.size();
     if (places && run->serving()) poll.add(run->transport()->replies());
     const bool soon = leaving || (peers && peers->waiting());
-    poll.wait(std::chrono::milliseconds(soon ? 5 : 100));
+    poll.wait(due ? std::chrono::milliseconds(0) : soon ? std::chrono::milliseconds(5) : turn_interval);
     Readable readable;
-    readable.door = poll.any_readable(0, background_item);
+    readable.door = traffic.has_left() || poll.any_readable(0, background_item);
     if (poll.readable(background_item)) background.clear();
     if (!run) return readable;
     readable.peers = poll.any_readable(background_item + 1, gateway_item);

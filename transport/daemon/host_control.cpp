@@ -173,7 +173,8 @@ void Host::Service::start(const Arriving& job, Arrival read) {
     const auto most = std::size_t{read.job.tuning.own_lines};
     const auto lines = std::make_shared<LineBook>();
     HostedRun::Assignment assignment{job.id, job.you, places, read.plan, std::move(read.job)};
-    run = std::make_unique<HostedRun>(context, cache, registry, last_scene, std::move(assignment), lines);
+    run = std::make_unique<HostedRun>(context, cache, registry, last_scene, std::move(assignment),
+                                      ShortWays{lines, leadership});
     rights.serve(job.key);
     rights.use_members(job.members);
     gateway.emplace(*context, job.id);
@@ -191,7 +192,6 @@ void Host::Service::start(const Arriving& job, Arrival read) {
         options.line_life);
     peers->hear(job.numbers);
     who = job.who;
-    given = answered = 0;
     forget_peak_memory();
     ++figures.runs;
     options.log("serves a run" + (who.empty() ? "" : " of " + who));
@@ -257,7 +257,7 @@ void Host::Service::tell_state(const Sender& sender) {
                             std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()));
     fields.set("broken_packets", broken_packets).set("resident_memory", process_figures().resident);
     if (run && rights.is_owner(sender.key)) {
-        fields.set("nodes", run->nodes()).set("bundles", given);
+        fields.set("nodes", run->nodes()).set("bundles", traffic.given());
         fields.set("progress", run->places() ? run->places()->progress() : 0);
     }
     fields.set("ports", options.ports);
@@ -275,6 +275,7 @@ void Host::Service::take_blob(const std::string& route, std::uint64_t id, const 
 void Host::Service::stop_run(const std::string& route) {
     const auto id = run->id();
     rights.serve({});
+    traffic.serve(0, nullptr);
     const auto done = so_far();
     if (run->places()) figures.answered += run->places()->progress();
     peers.reset();

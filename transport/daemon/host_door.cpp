@@ -59,7 +59,7 @@ void HostDoor::take_challenge(const Frames& frames) {
     if (!header || header->type != Type::joined) return;
     const auto fields = packet::unpack_fields(bytes_of(frames[2]));
     if (!fields || fields->text("challenge").empty()) return;
-    if (fields->number("turned_down") && !std::exchange(turned_down_, true))
+    if (fields->number("turned_down") && !std::exchange(known_.turned_down, true))
         options_.log({LogLevel::warning, "the launcher at " + options_.join +
                                              " does not let this host in: its user has another pass (give both the "
                                              "same file, --pass)"});
@@ -72,23 +72,23 @@ void HostDoor::take_challenge(const Frames& frames) {
 void HostDoor::look_at_handshake() {
     const auto seen = launcher_ ? launcher_->look_at_handshake() : std::nullopt;
     if (!seen) return;
-    abandoned_ = *seen == Handshake::abandoned ? abandoned_ + 1 : 0;
-    if (*seen == Handshake::made) told_trouble_ = false, known_ = true;
-    const bool for_sure = *seen == Handshake::mismatched || abandoned_ >= abandoned_for_sure;
+    known_.abandoned = *seen == Handshake::abandoned ? known_.abandoned + 1 : 0;
+    if (*seen == Handshake::made) known_.told = false, known_.made = true;
+    const bool for_sure = *seen == Handshake::mismatched || known_.abandoned >= abandoned_for_sure;
     std::string trouble;
     if (*seen == Handshake::refused && options_.launcher)
         trouble = "does not know the key of this host (fingerprint " + options_.launcher->own.open.fingerprint() +
                   "); to be let in, its user appends to the list of --allow: " + options_.launcher->own.open.text() +
                   " " + options_.name;
-    else if (for_sure && *seen == Handshake::abandoned && (known_ || !options_.launcher))
+    else if (for_sure && *seen == Handshake::abandoned && (known_.made || !options_.launcher))
         trouble = "ends each connection before a word is said: its line may be cut" +
-                  std::string(known_ ? "" : ", or it has a key, which --launcher-key would say");
+                  std::string(known_.made ? "" : ", or it has a key, which --launcher-key would say");
     else if (for_sure && options_.launcher)
         trouble = "has another key than --launcher-key says (fingerprint " + options_.launcher->theirs.fingerprint() +
                   "), or none";
     else if (for_sure)
         trouble = "asks for keys: say --launcher-key KEY, which its user knows (lightnet key)";
-    if (!trouble.empty() && !std::exchange(told_trouble_, true))
+    if (!trouble.empty() && !std::exchange(known_.told, true))
         options_.log({LogLevel::warning, "the launcher at " + options_.join + " " + trouble});
 }
 
@@ -96,7 +96,7 @@ std::optional<Frames> HostDoor::from_launcher(Time now) {
     while (auto frames = launcher_->receive()) {
         heard_ = now;
         silence_ = shortest_silence;
-        told_silence_.clear();
+        known_.silence.clear();
         if (frames->size() == 1 && is_empty(*frames)) {
             next_join_ = {};  // a new connection: it does not know us yet
             begin_anew(launcher_route);
@@ -112,7 +112,10 @@ std::optional<Frames> HostDoor::receive(Time now) {
     while (auto frames = from_anyone(now)) {
         auto message = take(std::move(*frames), now);
         if (!message) continue;
-        if (text_of(message->front()) == counted_ && is_counted(*message)) ++tally_.taken;
+        if (text_of(message->front()) == counted_) {
+            tally_.heard = now;
+            tally_.taken += is_counted(*message);
+        }
         return message;
     }
     return std::nullopt;
@@ -242,8 +245,8 @@ void HostDoor::keep_in_touch(Time now) {
 // Once for each reason that its name may be.
 void HostDoor::tell_silence() {
     const auto why = launcher_ ? launcher_->trouble() : std::string();
-    if (why.empty() || why == told_silence_) return;
-    told_silence_ = why;
+    if (why.empty() || why == known_.silence) return;
+    known_.silence = why;
     options_.log({LogLevel::warning,
                   "the launcher at " + options_.join + " does not answer: " + why + "; this host goes on dialling"});
 }
@@ -252,7 +255,7 @@ void HostDoor::count(const std::string& route, std::uint64_t run) {
     run_ = run;
     if (route == counted_) return;
     counted_ = route;
-    tally_ = {tally_.line + 1, 0, 0};
+    tally_ = {tally_.line + 1, 0, 0, {}};
     auto& line = line_to(route, std::chrono::steady_clock::now());
     line.told_before = line.line.counted();
 }
@@ -267,9 +270,10 @@ void HostDoor::let_in() {
     if (port_) port_->let_in();
 }
 
-void HostDoor::watch(Poll& poll) const {
-    if (port_) port_->watch(poll);
-    if (launcher_) launcher_->watch(poll);
+void HostDoor::watch(Poll& poll, Watched what) const {
+    if (port_ && what != Watched::messages) port_->watch_callers(poll);
+    if (port_ && what != Watched::callers) port_->watch(poll);
+    if (launcher_ && what != Watched::callers) launcher_->watch(poll);
 }
 
 }  // namespace lightnet

@@ -54,12 +54,15 @@ public:
     void keep_in_touch(Time now);
     /// Lets in who waits, as long as there is room for connections. To be called before receive().
     void let_in();
-    void watch(Poll& poll) const;
+    /// Messages may be taken by another thread than those who call are looked after by, see Leadership.
+    enum class Watched { messages, callers, all };
+    void watch(Poll& poll, Watched what) const;
 
     /// How many messages came and went on the connection to the launcher of the run; see packet::is_counted().
     struct Tally {
         std::uint64_t line = 0;  // another number: another connection, counted from nothing
         std::uint64_t taken = 0, told = 0;
+        Time heard{};  // last
     };
     /// From now on this is that connection; `run` is known to those who take part in it.
     void count(const std::string& route, std::uint64_t run);
@@ -86,15 +89,19 @@ private:
 
     HostTransport& transport_;
     Options options_;
-    std::unique_ptr<HostPort> port_;             // null: nobody can call
-    std::unique_ptr<HostLine> launcher_;         // null: none is dialled, or no line could be had
-    int abandoned_ = 0;                          // handshakes with that launcher, in a row
-    bool told_trouble_ = false, known_ = false;  // it has made one, some time
-    std::string challenge_;                      // of the launcher that was dialled
-    bool turned_down_ = false;
+    std::unique_ptr<HostPort> port_;      // null: nobody can call
+    std::unique_ptr<HostLine> launcher_;  // null: none is dialled, or no line could be had
+    // Of that launcher.
+    struct Known {
+        int abandoned = 0;                       // handshakes, in a row
+        bool made = false;                       // one, some time
+        bool told = false, turned_down = false;  // that it does not let us in
+        std::string silence;                     // why it is silent, as was last said
+    };
+    Known known_;
+    std::string challenge_;  // of the launcher that was dialled
     Time heard_{}, dialled_{}, next_join_{};
     std::chrono::milliseconds silence_;  // after which it dials anew
-    std::string told_silence_;           // why, as was last said
     std::string key_;
     std::map<std::string, Line> lines_;  // by route
     bool gone_ = false;                  // it was, when something was last sent to somebody

@@ -18,6 +18,7 @@
 #include "transport/daemon/host_rights.hpp"
 #include "transport/daemon/hosted_run.hpp"
 #include "transport/daemon/peer_connections.hpp"
+#include "transport/daemon/place_traffic.hpp"
 #include "transport/daemon/shown_figures.hpp"
 #include "transport/store/blob_cache.hpp"
 #include "transport/wire/lease.hpp"
@@ -28,7 +29,8 @@
 
 namespace lightnet {
 
-/// The host itself. What it serves is one run at a time; all of it belongs to the thread of serve().
+/// The host itself. What it serves is one run at a time; all of it belongs to the thread of serve(), which leaves the
+/// door and the traffic of its places to these while it rests.
 struct Host::Service {
     static constexpr double lines_per_minute = 300;  // of one kind: a loop of short runs says two in .2 s
     static constexpr double refusals_per_minute = 20;
@@ -42,6 +44,8 @@ struct Host::Service {
     std::uint64_t process = process_number();
     HostRights rights;
     HostDoor door;
+    PlaceTraffic traffic{door, rights};
+    std::shared_ptr<Leadership> leadership = std::make_shared<Leadership>(traffic);
     std::uint64_t broken_packets = 0;
     // Who has sent a packet: how to answer, and his key as text.
     struct Sender {
@@ -83,14 +87,13 @@ struct Host::Service {
     std::string launcher;  // route to it
     // Without a word from it for so long, its run is over.
     Lease lease{std::chrono::milliseconds(400), std::chrono::seconds(4), std::chrono::seconds(12)};
-    std::uint64_t given = 0, answered = 0;  // asks of others
     DaemonFigures figures;                  // of runs that have ended, and how many began
     ShownFigures shown;
     Time needed{};  // last, by anyone
 
     // Leaving: told to stop, the launcher gives no more work, what was given is answered, it says farewell.
     struct Leaving {
-        Time since, last_work;
+        Time since;
         bool known = false;  // to the launcher
         std::optional<Time> farewell;
         bool for_good = true;  // else it stays, for other runs
@@ -103,9 +106,8 @@ struct Host::Service {
     HostDoor::Options door_options() const;
     bool turn(const std::atomic<bool>& stop);
     void survive(const std::exception& error);
-    void arrived(Frames frames);
+    void arrived(PlaceTraffic::Arrival arrival);
     void damaged(const std::string& route);
-    void work(const packet::Header& header, Frames frames);
     void from_another(const packet::Header& header, Frames frames);
     void control(const Sender& sender, const packet::Header& header, const packet::Fields& fields);
     packet::Fields answer_to_ping(const packet::Fields& ping, bool ours);
@@ -136,7 +138,7 @@ struct Host::Service {
         bool replies = false;  // of places and the dispatcher
     };
     Readable wait();
-    void forward_replies();
+    bool rest(Time now);
     void forward_asks();
     void forward_to_launcher(Frames& frames);
     void show_figures(Time now);

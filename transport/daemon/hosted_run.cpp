@@ -20,9 +20,9 @@ std::string in_words(std::uint64_t bytes) {
 }  // namespace
 
 HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
-                     LastScene& last_scene, Assignment assignment, std::shared_ptr<const LineBook> lines)
+                     LastScene& last_scene, Assignment assignment, ShortWays ways)
     : context_(std::move(context)),
-      lines_(std::move(lines)),
+      ways_(std::move(ways)),
       cache_(cache),
       registry_(registry),
       last_scene_(last_scene),
@@ -153,7 +153,7 @@ bool HostedRun::advance() {
         auto network = building_.get();
         last_scene_.hold(scene_source(assignment_.job, registry_), network->scene);
         const auto& [id, me, places, plan, job] = assignment_;
-        transport_ = std::make_unique<ZmqPlaceTransport>(context_, id, me, places, lines_);
+        transport_ = std::make_unique<ZmqPlaceTransport>(context_, id, me, places, ways_);
         places_ = std::make_unique<PlaceThreads>(*transport_, std::move(network), id, me, places, plan, job.tuning,
                                                  PlaceThreads::AskedFrom::other_hosts);
         state_ = State::starting;

@@ -38,7 +38,7 @@ public:
         Job job;
     };
     HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& cache, const Registry& registry,
-              LastScene& last_scene, Assignment assignment, std::shared_ptr<const LineBook> lines = nullptr);
+              LastScene& last_scene, Assignment assignment, ShortWays ways = {});
 
     enum class State { looking, fetching, building, starting, serving };
 
@@ -100,7 +100,7 @@ private:
     void take_result(const packet::Piece& piece, IncomingResult& result);
 
     std::shared_ptr<const SocketContext> context_;
-    std::shared_ptr<const LineBook> lines_;  // hosts that its places may call by themselves
+    ShortWays ways_;  // of its places
     BlobCache& cache_;
     const Registry& registry_;
     LastScene& last_scene_;

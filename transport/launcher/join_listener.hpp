@@ -45,7 +45,10 @@ public:
     JoinListener(HostTransport& transport, const std::string& endpoint, Door door);
 
     std::string endpoint() const { return port_->endpoint(); }
-    void watch(Poll& poll) const { port_->watch(poll); }
+    void watch(Poll& poll) const {
+        port_->watch_callers(poll);
+        port_->watch(poll);
+    }
     /// Takes in what there is, and gives it to the connections. Returns how many packets were damaged.
     std::uint64_t receive(const Handlers& handlers);
 

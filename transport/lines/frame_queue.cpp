@@ -25,6 +25,11 @@ std::optional<Frames> FrameQueue::pop() {
     return next;
 }
 
+bool FrameQueue::empty() const {
+    const std::lock_guard lock(mutex_);
+    return frames_.empty();
+}
+
 bool FrameQueue::fall_asleep() {
     const std::lock_guard lock(mutex_);
     asleep_ = frames_.empty() && !closed_;

@@ -24,6 +24,7 @@ public:
     bool push_always(Frames& frames) { return put(frames, ~std::size_t{0}); }
     /// The oldest; none: there is nothing.
     std::optional<Frames> pop();
+    bool empty() const;
     /// From now on a push makes handle() readable. False: there is something already, and nothing to wait for. For the
     /// thread that takes, as all that follows.
     bool fall_asleep();
@@ -35,7 +36,7 @@ public:
 private:
     bool put(Frames& frames, std::size_t most);
 
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::deque<Frames> frames_;
     bool asleep_ = false, woken_ = false, closed_ = false;
     Wakeup wakeup_;

@@ -80,7 +80,10 @@ public:
     virtual SendResult send(Frames& frames) = 0;
     /// Lets in who waits, as far as there is room. To be called as often as receive().
     virtual void let_in() {}
+    /// For messages.
     virtual void watch(Poll& poll) const = 0;
+    /// For those who want to be let in.
+    virtual void watch_callers(Poll&) const {}
 };
 
 /// Carries messages between the hosts of a run. Outlives its lines and ports.

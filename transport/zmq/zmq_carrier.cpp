@@ -28,6 +28,11 @@ std::string inproc_endpoint(std::uint64_t run, std::uint32_t place) {
     return "inproc://run-" + std::to_string(run) + "/place-" + std::to_string(place);
 }
 
+void ZmqCarrier::Queues::put_reply(Frames& frames) const {
+    replies->push_always(frames);
+    if (door) door->send(*replies);
+}
+
 struct ZmqCarrier::Sockets {
     // Another host.
     struct Peer {
@@ -76,8 +81,15 @@ struct ZmqCarrier::Sockets {
         const auto sources = all();
         Poll poll;
         for (const auto* source : sources) poll.add(source->socket);
-        if (me.queues.asks && most.count() > 0) poll.add(*me.queues.asks);
-        poll.wait(most);
+        if (most.count() == 0) {
+            poll.wait(most);
+        } else {
+            if (me.queues.asks) poll.add(*me.queues.asks);
+            Leadership::Turn turn(me.queues.led(), me.queues.replies.get());
+            turn.watch(poll);
+            poll.wait(most);
+            turn.look(poll);
+        }
         for (std::size_t i = 0; i < sources.size(); ++i) sources[i]->dry = !poll.readable(i);
     }
 
@@ -181,7 +193,7 @@ struct ZmqCarrier::Sockets {
             return message;
         }
         for (std::size_t i = hops; i < frames.size(); ++i) frames[i] = MessageFrame();  // the asker must send it again
-        me.queues.replies->push_always(frames);
+        me.queues.put_reply(frames);
         return std::nullopt;
     }
 
@@ -196,7 +208,7 @@ struct ZmqCarrier::Sockets {
             counters.bytes += packet.header.size() + packet.body.size();
             append(frames, std::move(packet));
         }
-        me.queues.replies->push_always(frames);
+        me.queues.put_reply(frames);
     }
 
     std::optional<Message> from_answerer(const std::string& endpoint, Frames frames) {
@@ -308,6 +320,8 @@ std::optional<Message> ZmqCarrier::receive() {
 void ZmqCarrier::wait(std::chrono::nanoseconds most) {
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(most);
     sockets_->look(std::max(ms, std::chrono::milliseconds(1)));
+    const auto& queues = sockets_->me.queues;
+    if (queues.door) queues.door->send(*queues.replies);  // what others have put there while this place led
 }
 
 void ZmqCarrier::give_up(std::uint32_t channel) {

@@ -8,6 +8,7 @@
 
 #include "core/run/message/carrier.hpp"
 #include "transport/lines/frame_queue.hpp"
+#include "transport/lines/leadership.hpp"
 #include "transport/lines/line_book.hpp"
 #include "transport/places/place_transport.hpp"
 #include "transport/zmq/socket.hpp"
@@ -25,6 +26,11 @@ public:
     /// Between this place and the thread that owns the sockets to other hosts.
     struct Queues {
         std::shared_ptr<FrameQueue> asks, replies;
+        std::shared_ptr<Leadership> door{};  // null: places never read it
+        bool may_lead = false;               // what comes by the door may be for this place itself
+
+        void put_reply(Frames& frames) const;
+        Leadership* led() const { return may_lead ? door.get() : nullptr; }
     };
     struct Address {
         std::uint64_t run = 0;

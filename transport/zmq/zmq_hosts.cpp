@@ -27,10 +27,8 @@ public:
     }
     SendResult send(Frames& frames) override { return door_.try_send(frames); }
     void let_in() override { keeper_.tick(); }
-    void watch(Poll& poll) const override {
-        keeper_.watch(poll);
-        poll.add(door_);
-    }
+    void watch(Poll& poll) const override { poll.add(door_); }
+    void watch_callers(Poll& poll) const override { keeper_.watch(poll); }
 
 private:
     Doorkeeper keeper_;

@@ -16,16 +16,17 @@ constexpr std::size_t other_descriptors = 8;
 }  // namespace
 
 ZmqPlaceTransport::ZmqPlaceTransport(std::shared_ptr<const SocketContext> context, std::uint64_t run, std::string host,
-                                     std::uint32_t places, std::shared_ptr<const LineBook> lines)
-    : context_(std::move(context)), run_(run), host_(std::move(host)), lines_(std::move(lines)) {
+                                     std::uint32_t places, ShortWays ways)
+    : context_(std::move(context)), run_(run), host_(std::move(host)), ways_(std::move(ways)) {
     want_descriptors(descriptors_per_place * (places + 1) + other_descriptors, std::to_string(places) + " places");
     for (std::uint32_t i = 0; i <= places; ++i) to_.push_back(std::make_shared<FrameQueue>());
 }
 
 std::unique_ptr<Carrier> ZmqPlaceTransport::carrier_of(std::uint32_t place, AtFault at_fault) {
-    const ZmqCarrier::Queues queues{to_[place == any_place ? to_.size() - 1 : place], replies_};
+    const bool is_place = place != any_place;  // the dispatcher idles nearly always, and nothing is for itself
+    const ZmqCarrier::Queues queues{to_[is_place ? place : to_.size() - 1], replies_, ways_.door, is_place};
     return std::make_unique<ZmqCarrier>(*context_, ZmqCarrier::Address{run_, host_, place, queues}, std::move(at_fault),
-                                        lines_);
+                                        ways_.lines);
 }
 
 std::unique_ptr<Carrier> ZmqPlaceTransport::asking_carrier() {
