@@ -34,7 +34,7 @@ void Leadership::Turn::look(const Poll& poll) {
 }
 
 bool Leadership::lead() {
-    if (called_ || !mutex_.try_lock()) {
+    if (called_ || comes_ || !mutex_.try_lock()) {
         wanted_ = true;
         return false;
     }
@@ -54,7 +54,7 @@ void Leadership::end(bool is_for_host) noexcept {
 
 // Who leads looks once more after giving it back, so that nothing stays that was put there meanwhile.
 void Leadership::send(FrameQueue& replies) {
-    while (!replies.empty() && !called_ && mutex_.try_lock()) {
+    while (!replies.empty() && !called_ && !comes_ && mutex_.try_lock()) {
         const std::lock_guard lock(mutex_, std::adopt_lock);
         led_.send();
     }
@@ -62,12 +62,12 @@ void Leadership::send(FrameQueue& replies) {
 
 void Leadership::take() {
     if (!mutex_.try_lock()) {
-        called_ = true;
+        comes_ = true;
         interrupt_.notify();
         mutex_.lock();
         interrupt_.clear();
     }
-    called_ = false;
+    comes_ = false;
 }
 
 Leadership::Rest Leadership::rest(const std::function<void(Poll&)>& others, FrameQueue& replies,
@@ -75,15 +75,19 @@ Leadership::Rest Leadership::rest(const std::function<void(Poll&)>& others, Fram
     const auto begun = Clock::now();
     wanted_ = false;
     mutex_.unlock();
-    struct Back {
-        Leadership& its;
-        ~Back() {
-            its.sleeps_ = false;
-            its.take();
-        }
-    } const back{*this};
-    send(replies);
-    const auto how = wait_while_led(others, most);
+    auto how = Rest::lapsed;
+    {
+        struct Back {
+            Leadership& its;
+            ~Back() {
+                its.sleeps_ = false;
+                its.take();
+            }
+        } const back{*this};
+        send(replies);
+        how = wait_while_led(others, most);
+    }
+    if (called_.exchange(false)) how = Rest::called;
     const auto now = Clock::now();
     if (how == Rest::called && now - begun < short_rest) no_rest_before_ = now + pause;
     return how;
@@ -105,7 +109,7 @@ Leadership::Rest Leadership::wait_while_led(const std::function<void(Poll&)>& ot
         if (poll.readable(0)) call_.clear();
         if (poll.any_readable(1, poll.size())) return Rest::called;
         const auto now = turns_.load();
-        if (now == seen && !is_led_ && !called_) return Rest::lapsed;
+        if (now == seen && !is_led_) return Rest::lapsed;
         still = now == seen ? still + 1 : 0;
         seen = now;
     }

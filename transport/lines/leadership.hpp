@@ -78,10 +78,12 @@ private:
     Rest wait_while_led(const std::function<void(Poll&)>& others, std::chrono::milliseconds most);
 
     Led& led_;
-    std::mutex mutex_;  // of who leads
-    Wakeup interrupt_;  // of a place that leads
-    Wakeup call_;       // of the host's thread that rests
-    std::atomic<bool> called_{false}, wanted_{false};
+    std::mutex mutex_;                 // of who leads
+    Wakeup interrupt_;                 // of a place that leads
+    Wakeup call_;                      // of the host's thread that rests
+    std::atomic<bool> called_{false};  // the host's thread, by a place
+    std::atomic<bool> comes_{false};   // the host's thread, to lead
+    std::atomic<bool> wanted_{false};
     std::atomic<bool> is_led_{false};      // by a place
     std::atomic<bool> sleeps_{false};      // the host's thread, longer than a millisecond
     std::atomic<std::uint64_t> turns_{0};  // of places, so far
