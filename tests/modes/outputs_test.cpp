@@ -60,6 +60,20 @@ TEST_F(Outputs, TakeThePlaceOfNoFileOfOthers) {
     EXPECT_EQ(bytes_of(folder / "run.json"), "my notes");
 }
 
+TEST_F(Outputs, TakeThePlaceOfNothingThatTheSceneReads) {
+    const auto wood = bytes_of(graph_file("../docs/watch.png"));
+    folder.write("picture.png", wood);
+    folder.write("plate.mtl", "newmtl wood\nmap_Kd picture.png\n");
+    folder.write("plate.obj", "mtllib plate.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    const auto graph = folder.write("plate.lua",
+                                    "scene = Scene { 'plate.obj' }\n"
+                                    "RayTracer { DirectLighting { samples = 1 }, scene = scene }\n");
+    const auto refused = launch(graph, folder, small);
+    EXPECT_EQ(refused.code, 2) << refused.said;
+    EXPECT_THAT(refused.said, HasSubstr("picture.png: is what this picture is made of, and would be lost"));
+    EXPECT_EQ(bytes_of(folder / "picture.png"), wood);
+}
+
 TEST_F(Outputs, OfTwoPicturesInAFolderHaveReportsOfTheirOwn) {
     for (const std::string name : {"one", "two"}) {
         Process run(launch_words(graph_file("direct.lua"), folder / (name + ".exr"), small));

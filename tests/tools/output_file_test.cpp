@@ -56,6 +56,23 @@ TEST(OutputFile, LeavesFilesOfOthersAlone) {
     EXPECT_THAT(refusal_of(folder / "y.exr"), HasSubstr("a pipe"));
 }
 
+TEST(OutputFile, LeavesAloneWhatThePictureIsMadeOf) {
+    const test::Folder folder;
+    const auto wood = folder.write("wood.png", "\x89PNG\r\n\x1a\n and more");
+    fs::create_symlink(wood, folder / "link.png");
+    const auto refusal = [&](const std::string& name) {
+        try {
+            check_inputs_stay(folder / name, {folder / "none.png", wood});
+            return std::string();
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+    };
+    EXPECT_THAT(refusal("wood.exr"), HasSubstr("wood.png: is what this picture is made of"));
+    EXPECT_THAT(refusal("link.exr"), HasSubstr("link.png: is what this picture is made of"));
+    EXPECT_THAT(refusal("other.exr"), IsEmpty());
+}
+
 TEST(OutputFile, NamesAllThatIsInTheWayAtOnce) {
     const test::Folder folder;
     folder.write("x.png", "notes");

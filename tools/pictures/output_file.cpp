@@ -56,6 +56,18 @@ void check_picture(const std::string& exr) {
     if (!problems.empty()) throw UserError(problems);
 }
 
+void check_inputs_stay(const std::string& exr, const std::vector<std::string>& inputs) {
+    std::vector<Problem> problems;
+    for (const auto& file : {fs::path(exr), png_beside(exr)})
+        for (const auto& input : inputs) {
+            std::error_code not_there;
+            if (fs::equivalent(file, input, not_there))
+                problems.push_back(
+                    {{file, 0}, "is what this picture is made of, and would be lost: choose another --output"});
+        }
+    if (!problems.empty()) throw UserError(problems);
+}
+
 namespace {
 
 void check_file(const std::string& file, std::string_view beginning) {

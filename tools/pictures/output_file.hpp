@@ -20,6 +20,9 @@ void check_output(const std::string& output);
 /// Likewise for one of the pictures that come with it, and its PNG.
 void check_picture(const std::string& exr);
 
+/// Throws UserError where a picture at `exr`, or its PNG, would replace one of `inputs`: what it is made of.
+void check_inputs_stay(const std::string& exr, const std::vector<std::string>& inputs);
+
 /// Throws UserError when no page of a report can be written there.
 void check_report(const std::string& html);
 

@@ -68,6 +68,14 @@ void check_files(const RunRequest& request, const FilmFormat& format) {
     if (!request.report.empty()) check_report(request.report);
 }
 
+// Known once the scene is read: textures and skies are pictures, too.
+void check_inputs(const RunRequest& request, const Job& job, const FilmFormat& format) {
+    std::vector<std::string> inputs{request.reference};
+    for (const auto& file : job.files) inputs.push_back(file.path);
+    check_inputs_stay(request.output, inputs);
+    if (format.halves()) check_inputs_stay(clean_beside(request.output), inputs);
+}
+
 // What is there becomes the picture, whatever it is; its checkpoint first, as that is what costs most to lose. In
 // words.
 std::string write_what_is_there(RunRecorder& book, const std::string& output,
@@ -148,6 +156,7 @@ std::optional<int> Run::render_film() {
     if (const auto words = words_of_lighting(request_); !words.empty()) book_.say(words);
     book_.phase("load");
     LoadedScene scene = scene_.load(book_);
+    check_inputs(request_, scene_.job(), format_);
     if (scene_.was_there(scene, book_)) return exit_code::done;
     const MadeFrom made = scene_.made_from(scene);
     const KeptFiles to_keep(request_.graph, registry_, data_of(scene));

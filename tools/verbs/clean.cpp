@@ -68,9 +68,7 @@ Picture noisy_picture(const std::string& file) {
 
 /// Where a picture goes. Throws UserError where the noisy one would be lost.
 std::string place_of(const std::string& noisy, const std::string& output) {
-    std::error_code not_there;
-    if (std::filesystem::equivalent(noisy, output, not_there))
-        throw UserError({output, 0}, "is the noisy picture, and would be lost: choose another --output");
+    check_inputs_stay(output, {noisy});
     check_output(output);
     return output;
 }
