@@ -67,7 +67,8 @@ TEST_F(Outputs, TakeThePlaceOfNothingThatTheSceneReads) {
     folder.write("plate.obj", "mtllib plate.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
     const auto graph = folder.write("plate.lua",
                                     "scene = Scene { 'plate.obj' }\n"
-                                    "RayTracer { DirectLighting { samples = 1 }, scene = scene }\n");
+                                    "direct = DirectLighting { samples = 1 }\n"
+                                    "image = RayTracer { direct, scene = scene }\n");
     const auto refused = launch(graph, folder, small);
     EXPECT_EQ(refused.code, 2) << refused.said;
     EXPECT_THAT(refused.said, HasSubstr("picture.png: is what this picture is made of, and would be lost"));
