@@ -24,6 +24,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/exr_claims.hpp"
+#include "core/base/own_files.hpp"
 #include "core/base/plain_file.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/exr_channels.hpp"
@@ -42,6 +43,10 @@ std::int64_t length(int min, int max) { return std::int64_t{max} - min + 1; }
 // Room is taken for what a file claims to have, so it must be able to have it.
 void expect_plausible(const std::filesystem::path& path) {
     PlainFile file(path, largest_exr);
+    std::string first(exr_beginning.size(), '\0');
+    file.read(std::as_writable_bytes(std::span(first)));
+    if (first != exr_beginning) throw Error(path.string(), "is no EXR picture");
+    file.seek(0);
     try {
         check_exr_claims([&](std::span<std::byte> into) { return file.read(into); }, file.size());
     } catch (const Error& wrong) {

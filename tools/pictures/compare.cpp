@@ -15,33 +15,10 @@
 #include "core/film/compare_layers.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
-#include "core/readers/files/files.hpp"
-#include "core/readers/images/image_file.hpp"
+#include "tools/pictures/picture_input.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {
-namespace {}  // namespace
-
-Picture picture_in(const std::string& path) {
-    if (has_ending(path, ".exr")) return read_exr(path);
-    DiskFiles files;
-    try {
-        expect_image(files.beginning(path, image_beginning));
-    } catch (const Error& error) {
-        throw Error(std::string(error.what()).starts_with(path) ? error.what() : path + ": " + error.what());
-    }
-    const Bytes bytes = files.read(path);
-    try {
-        const Image image = read_image(*bytes);
-        Picture picture{image.width, image.height, {}, {}};
-        for (std::uint32_t y = 0; y < image.height; ++y)
-            for (std::uint32_t x = 0; x < image.width; ++x) picture.beauty.push_back(image.colour(x, y));
-        return picture;
-    } catch (const Error& error) {
-        throw Error(path, error.what());
-    }
-}
-
 namespace {
 
 // Nothing is written where it can't be understood; said before anything is read.

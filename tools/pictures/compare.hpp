@@ -22,9 +22,6 @@ struct CompareRequest {
     std::string difference, flip_map;  // files to write; "": none
 };
 
-/// The picture in a file: EXR with its layers, or HDR, PNG and JPEG. Throws Error.
-Picture picture_in(const std::string& path);
-
 /// Writes what there is to say to `out`, and mistakes and what is too far off to `err`. An exit code: 0, 1 when a
 /// tolerance is passed, 2 when a picture can't be read or has another size.
 int compare_pictures(const CompareRequest& request, std::ostream& out, std::ostream& err);

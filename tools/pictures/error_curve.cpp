@@ -9,6 +9,7 @@
 #include "core/base/own_files.hpp"
 #include "core/film/compare.hpp"
 #include "tools/pictures/compare.hpp"
+#include "tools/pictures/picture_input.hpp"
 
 namespace lightnet {
 namespace {
@@ -22,18 +23,10 @@ void check_curve(const std::string& csv) {
     if (const auto why = why_not_replaced(csv, curve_beginning); !why.empty()) throw UserError({csv, 0}, why);
 }
 
-Picture read_reference(const std::string& file) {
-    try {
-        return picture_in(file);
-    } catch (const Error& error) {
-        throw UserError({file, 0}, std::string("can't be read: ") + error.what());
-    }
-}
-
 }  // namespace
 
 ErrorCurve::ErrorCurve(const std::string& reference, const std::string& csv, std::uint32_t width, std::uint32_t height)
-    : name_(reference), csv_(csv), reference_(read_reference(reference)) {
+    : name_(reference), csv_(csv), reference_(picture_of_user(reference)) {
     check_curve(csv);
     if (reference_.width != width || reference_.height != height)
         throw UserError({reference, 0}, fmt::format("is of {}x{} pixels, and the picture of {}x{}", reference_.width,

@@ -3,21 +3,18 @@
 #include <ostream>
 
 #include "core/base/error.hpp"
+#include "core/base/own_files.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/png.hpp"
 #include "tools/pictures/output_file.hpp"
+#include "tools/pictures/picture_input.hpp"
 #include "tools/pictures/picture_lock.hpp"
 #include "tools/support/run_report.hpp"
 
 namespace lightnet {
 
 Picture read_layers(const std::string& file) {
-    Picture picture;
-    try {
-        picture = read_exr(file);
-    } catch (const Error& error) {
-        throw UserError({file, 0}, std::string("can't be read: ") + error.what());
-    }
+    Picture picture = layers_of_user(file);
     if (picture.layers.empty()) throw UserError({file, 0}, "has no layers that add up, so there is nothing to mix");
     return picture;
 }

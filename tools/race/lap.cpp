@@ -19,6 +19,7 @@
 #include "core/film/tone.hpp"
 #include "tools/pictures/compare.hpp"
 #include "tools/pictures/error_curve.hpp"
+#include "tools/pictures/picture_input.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/run_report.hpp"
 
@@ -75,11 +76,7 @@ double worst_bias(const Rgb& ratio) {
 
 Track::Track(std::function<int(const RunRequest&)> run, const std::string& reference)
     : run_(std::move(run)), reference_(reference) {
-    if (!reference.empty()) try {
-            truth_ = picture_in(reference);
-        } catch (const Error& error) {
-            throw UserError({reference, 0}, std::string("can't be read: ") + error.what());
-        }
+    if (!reference.empty()) truth_ = picture_of_user(reference);
 }
 
 Lap Track::lap(const Contestant& contestant, std::uint64_t seed, bool pictures) {

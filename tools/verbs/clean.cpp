@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
-#include <filesystem>
 #include <map>
 #include <ostream>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "tools/pictures/clean.hpp"
 #include "tools/pictures/film_strip.hpp"
 #include "tools/pictures/output_file.hpp"
+#include "tools/pictures/picture_input.hpp"
 #include "tools/pictures/picture_lock.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/words/command_line.hpp"
@@ -56,12 +56,7 @@ void describe_clean(CLI::App& verb, CleanOptions& options) {
 }
 
 Picture noisy_picture(const std::string& file) {
-    Picture picture;
-    try {
-        picture = read_exr(file);
-    } catch (const Error& error) {
-        throw UserError({file, 0}, std::string("can't be read: ") + error.what());
-    }
+    Picture picture = layers_of_user(file);
     if (picture.notes.texts.contains(cleaned_note)) throw UserError({file, 0}, "is clean already");
     return picture;
 }

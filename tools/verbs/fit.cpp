@@ -1,7 +1,6 @@
 // lightnet fit: finds the gains that bring a picture's layers near another picture.
 #include <CLI/CLI.hpp>
 
-#include <filesystem>
 #include <ostream>
 #include <system_error>
 
@@ -11,6 +10,8 @@
 #include "tools/cli/launcher.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/pictures/compare.hpp"
+#include "tools/pictures/output_file.hpp"
+#include "tools/pictures/picture_input.hpp"
 #include "tools/pictures/remix.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/words/command_line.hpp"
@@ -38,11 +39,9 @@ void describe_fit(CLI::App& verb, FitOptions& options) {
 }
 
 int fit_picture(const FitOptions& options, const Launcher& launcher) {
-    std::error_code not_there;
-    if (std::filesystem::equivalent(options.target, options.output, not_there))
-        throw UserError({options.output, 0}, "is the picture to come near, and would be lost: choose another --output");
+    check_inputs_stay(options.output, {options.target});
     Picture picture = read_layers(options.picture);
-    const Picture target = picture_in(options.target);
+    const Picture target = picture_of_user(options.target);
     std::vector<Gain> gains;
     try {
         gains = fit(picture, target, options.grey);

@@ -18,6 +18,7 @@
 #include "tools/cli/options.hpp"
 #include "tools/explain/live_explainer.hpp"
 #include "tools/explain/past_run.hpp"
+#include "tools/pictures/picture_input.hpp"
 #include "tools/request/run_settings.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/run_report.hpp"
@@ -71,9 +72,7 @@ void describe_view(CLI::App& verb, ViewOptions& options) {
         "  lightnet view cornell.exr cornell.clean.exr --at 127.0.0.1:8080");
 }
 
-PictureFile picture_file(const std::string& file) try { return {file, read_exr(file)}; } catch (const Error& error) {
-    throw UserError({file, 0}, std::string("can't be read: ") + error.what());
-}
+PictureFile picture_file(const std::string& file) { return {file, layers_of_user(file)}; }
 
 /// What is known of how a picture came about, and who tells of its pixels. None: nothing is.
 class Origin {
