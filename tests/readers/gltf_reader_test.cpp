@@ -341,6 +341,16 @@ TEST(GltfMistakes, InTheTreeAreNoLoops) {
                 HasSubstr("nodes[1].children[0] names node 0, which stands elsewhere already"));
 }
 
+TEST(GltfMaterial, NamesColoursThatReflectMoreThanAll) {
+    const auto of = [](const std::string& factor) {
+        return warnings_of(read_gltf(
+            with_triangle(R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[)" + factor + "]}}]," + one_node,
+                          R"({"attributes":{"POSITION":0},"material":0})")));
+    };
+    EXPECT_THAT(of("1, 0.5, 0, 1"), Not(HasSubstr("above 1")));
+    EXPECT_THAT(of("2, 0.5, 0, 1"), HasSubstr("a baseColorFactor is above 1"));
+}
+
 TEST(Gltf, NamesWhatItNeedsOfLaterVersions) {
     const auto of = [](const std::string& least) {
         std::string json = with_triangle(one_node);

@@ -175,7 +175,8 @@ PrincipledMaterial Materials::model(const At& at, bool painted) {
     const At rough = at["pbrMetallicRoughness"];
     const auto factor = rough["baseColorFactor"].numbers<4>({1, 1, 1, 1});
     if (std::ranges::any_of(factor, [](double value) { return value > 1; }))
-        rough["baseColorFactor"].warn("is above 1: no surface reflects more light than it gets, and 1 is taken");
+        rough["baseColorFactor"].warn(
+            "a baseColorFactor is above 1: no surface reflects more light than it gets, and 1 is taken");
     PrincipledMaterial model;
     model.base_colour = base(rough["baseColorTexture"], rgb({factor[0], factor[1], factor[2]}), painted);
     model.metallic = share(rough["metallicFactor"], 1);
