@@ -32,8 +32,9 @@ struct DaemonFigures {
 };
 
 /// Listens on one port, or dials out to a launcher and lets nobody in. The thread of serve() owns its sockets: it
-/// answers heartbeats, takes in the job and its files, and hands packets on to its places without looking inside.
-/// Places render in threads of their own, so a busy host never looks dead.
+/// answers heartbeats, takes in the job and its files, and hands packets on to its places without looking inside, or
+/// has a place that idles do this last (see Leadership). Places render in threads of their own, so a busy host never
+/// looks dead.
 class Host {
 public:
     struct Options {
@@ -51,7 +52,7 @@ public:
         std::uint64_t cache_size = usual_cache_size;
         std::chrono::milliseconds drain{20'000};            // to answer what it has when it is told to stop
         std::optional<std::chrono::milliseconds> patience;  // it leaves when nobody needs it for so long
-        std::function<void(const LogEntry&)> log = [](const LogEntry&) {};  // called by the thread of serve()
+        std::function<void(const LogEntry&)> log = [](const LogEntry&) {};  // one thread at a time
         std::shared_ptr<HostTransport> transport{};  // to launchers and other hosts; null: by ZeroMQ
     };
     /// Throws Error when the port can't be had, or the system has too few descriptors.
