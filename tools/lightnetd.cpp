@@ -117,6 +117,9 @@ int serve(lightnet::DaemonOptions options, const lightnet::DaemonLog& log, light
     if (options.parent || options.led) options.metrics.clear();  // of the one daemon that the environment may be for
     if (!options.quiet && !options.parent) options.host.log = log;
     const auto& stop = lightnet::watch_signals();
+    options.host.why_told = [&stop] {
+        return stop.said == lightnet::memory_is_needed ? std::string("other runs of its daemon need its memory") : "";
+    };
     std::optional<lightnet::LedByInput> led;
     if (options.led) led.emplace();
     lightnet::raise_descriptor_limit();

@@ -160,7 +160,8 @@ TEST_F(SeveralRuns, GoOnWithoutADaemonThatHoldsTooMuch) {
     const Daemon bounded(folder, 1, any_port, {"--runs", "2", "--memory", std::to_string(idle + (idle + at_work) / 2)});
     const Daemon beside(folder);
     const auto run = start("one", whole(bounded.endpoint) + whole(beside.endpoint), "800");
-    EXPECT_TRUE(run->wait_for(bounded.endpoint + " was told to stop")) << run->output();
+    EXPECT_TRUE(run->wait_for(bounded.endpoint + " was told to stop, as other runs of its daemon need its memory"))
+        << run->output();
     EXPECT_TRUE(bounded.process->wait_for("is told to end")) << bounded.process->output();
     const auto end = end_of(*run, "one");
     EXPECT_EQ(end.code, 0) << end.said;

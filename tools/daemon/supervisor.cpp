@@ -159,7 +159,7 @@ private:
             return;
         auto& one = all_[verdict->number];
         one.told = true;
-        tell(one);
+        tell(one, memory_is_needed);
         if (!wanted_.quiet) log_({LogLevel::warning, words_of(*verdict)});
     }
     std::string words_of(const MemoryBound::Verdict& verdict) const {
@@ -171,7 +171,11 @@ private:
     }
 
     // The only signal that they take, see lightnetd.cpp.
-    static void tell(const Daemon& one) { kill(one.process, SIGUSR1); }
+    static void tell(const Daemon& one, int why = 0) {
+        sigval said{};
+        said.sival_int = why;
+        sigqueue(one.process, SIGUSR1, said);
+    }
     // Again and again, as one that has just been started doesn't listen to it yet.
     static void tell_and_look(Daemon& one) {
         if (!one.process) return;

@@ -20,6 +20,9 @@ struct SupervisedDaemons {
     std::uint64_t memory = 0;        // bytes that they may hold together, see MemoryBound; 0: any
 };
 
+/// What the SIGUSR1 says by which a daemon is told to end: others need its memory. Else it says nothing.
+inline constexpr int memory_is_needed = 1;
+
 /// Their ports: the one that the first listens at and those after it, or, where that is left to the system, any that
 /// are free. Throws UserError where there are not so many.
 std::vector<std::uint16_t> supervised_ports(const SupervisedDaemons& daemons);

@@ -16,8 +16,9 @@ std::atomic<bool> only_warned{false};  // by Slurm, which sends another signal l
 
 void note_time() { caught.came = std::chrono::steady_clock::now().time_since_epoch().count(); }
 
-void on_signal(int signal) {
+void on_signal(int signal, siginfo_t* of, void*) {
     const bool warns = signal == SIGUSR1;
+    if (warns && of && of->si_code == SI_QUEUE) caught.said = of->si_value.sival_int;
     const bool again = caught.any.exchange(true) && !(!warns && only_warned.exchange(false));
     if (warns && !again) only_warned = true;
     if (again && !warns && signal != SIGHUP) _exit(130);
@@ -28,7 +29,7 @@ void on_signal(int signal) {
 int code_at_first = 0;
 std::string_view words_at_first;
 
-void end_at_once(int) {
+void end_at_once(int, siginfo_t*, void*) {
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, words_at_first.data(), words_at_first.size());
     _exit(code_at_first);
 }
@@ -38,9 +39,10 @@ bool is_ignored(int signal) {
     return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-void take(std::initializer_list<int> which, void (*handler)(int)) {
+void take(std::initializer_list<int> which, void (*handler)(int, siginfo_t*, void*)) {
     struct sigaction action {};
-    action.sa_handler = handler;
+    action.sa_sigaction = handler;
+    action.sa_flags = SA_SIGINFO;
     for (const int signal : which)
         if (!is_ignored(signal)) sigaction(signal, &action, nullptr);
 }
@@ -62,7 +64,7 @@ std::chrono::duration<double> time_to_end(const Signals& told) {
 void end_on_signals(int code, std::string_view words) {
     code_at_first = code, words_at_first = words;
     take({SIGINT, SIGTERM, SIGHUP}, end_at_once);
-    take({SIGUSR1}, [](int) {});
+    take({SIGUSR1}, [](int, siginfo_t*, void*) {});
 }
 
 const Signals& watch_signals() {

@@ -12,6 +12,7 @@ struct Signals {
     std::atomic<bool> any{false};                         // one of those below came: the picture is not wanted
     std::atomic<bool> interrupted{false};                 // SIGINT: stop now
     std::atomic<bool> terminated{false};                  // the others: finish what is under way, then stop
+    std::atomic<int> said{0};                             // with a SIGUSR1, see sigqueue(3)
     std::atomic<bool> superseded{false};                  // no signal: another picture is wanted instead
     std::atomic<std::chrono::steady_clock::rep> came{0};  // the first signal: when
 };

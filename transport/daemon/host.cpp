@@ -270,7 +270,7 @@ void Host::Service::leave(Clock::time_point now, bool for_good) {
     leaving = Leaving{now, false, std::nullopt, for_good};
     if (!run) return;
     options.log(for_good ? "finishes what it has, then stops" : "finishes what it has of this run");
-    door.send(launcher, Type::leaving, run->id(), {});
+    door.send(launcher, Type::leaving, run->id(), Fields{}.set("text", for_good ? options.why_told() : ""));
     if (run->serving()) return;
     drop_run("this host is stopping");
     leaving->farewell = now;

@@ -53,6 +53,8 @@ public:
         std::chrono::milliseconds drain{20'000};            // to answer what it has when it is told to stop
         std::optional<std::chrono::milliseconds> patience;  // it leaves when nobody needs it for so long
         std::function<void(const LogEntry&)> log = [](const LogEntry&) {};  // one thread at a time
+        /// Why it was told to stop, for the launcher; "": no matter.
+        std::function<std::string()> why_told = [] { return std::string(); };
         std::shared_ptr<HostTransport> transport{};  // to launchers and other hosts; null: by ZeroMQ
     };
     /// Throws Error when the port can't be had, or the system has too few descriptors.

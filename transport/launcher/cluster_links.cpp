@@ -220,7 +220,9 @@ void Cluster::Links::tell_changes() {
         if (link->takes_part() && in_force) link->use(*in_force);
         if (state == State::refused)
             options.say(link->name() + (was_there ? " is taken out: " : " takes no part: ") + link->reason());
-        if (state == State::leaving) options.say(link->name() + " was told to stop: it finishes what it has");
+        if (state == State::leaving)
+            options.say(link->name() + " was told to stop" + (link->reason().empty() ? "" : ", as " + link->reason()) +
+                        ": it finishes what it has");
         if (before == State::leaving) options.say(link->name() + " has left");
         if (before == State::ready && state == State::calling) tell_loss(*link);
         changed |= state == State::ready || was_there;

@@ -308,9 +308,10 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             if (auto figures = figures_from(fields.text("figures"))) figures_ = std::move(*figures);
             return;
         case Type::leaving:
-            if (state_ == State::ready)
+            if (state_ == State::ready) {
                 state_ = State::leaving;
-            else if (state_ != State::leaving)
+                reason_ = fields.text("text");
+            } else if (state_ != State::leaving)
                 lose(now, "it was told to stop");
             return;
         case Type::ended: {
