@@ -61,9 +61,11 @@ public:
             const Query& question = questions[i];
             const SurfacePoint point = scene_.surface(question);
             const Bsdf bsdf = scene_.bsdf(point);
+            const PhotonWindow when = window_of(scene_, question, photon_window);
             for (const Vec3& side : {point.normal, -point.normal}) {
                 const Rgb scattered = evenly_scattered(bsdf, question.outgoing, side, question.lobes);
-                if (!is_black(scattered)) answers[i] += scattered * irradiance(point.position, side, scratch);
+                if (!is_black(scattered))
+                    answers[i] += scattered * irradiance({point.position, side, radius_, candidates, when}, scratch);
             }
         }
     }
@@ -76,7 +78,9 @@ private:
     Photon record_at(const Photon& at, const PhotonTree& others, Nearest& scratch) const {
         Vec3 normal = at.normal();
         if (dot(normal, at.towards_light()) < 0) normal = -normal;
-        const auto found = others.find({at.position, normal, radius_, gather_}, scratch);
+        const bool moves = scene_.moves();
+        const PhotonWindow when = moves ? window_of(at.time(), photon_window) : PhotonWindow{};
+        const auto found = others.find({at.position, normal, radius_, gather_, when}, scratch);
         const bool all = gather_ && found.size() == gather_;
         const float r2 = all ? found.back().distance2 : radius_ * radius_;
         Rgb sum;
@@ -85,13 +89,15 @@ private:
             if (dot(photon.towards_light(), normal) > 0) sum += photon.flux * (1 - near.distance2 / r2);
         }
         const float share = float(every_) / float(every_ - 1);
-        return {at.position, r2 > 0 ? sum * (share * 2 / (pi * r2)) : Rgb{}, normal, normal};
+        Photon record(at.position, r2 > 0 ? sum * (share * 2 / (pi * r2) / when.part()) : Rgb{}, normal, normal);
+        if (moves) record.put_time(at.time());
+        return record;
     }
 
-    Rgb irradiance(Vec3 position, Vec3 side, Nearest& scratch) const {
-        for (const auto& near : records_->find({position, side, radius_, candidates}, scratch)) {
+    Rgb irradiance(const PhotonTree::Wanted& wanted, Nearest& scratch) const {
+        for (const auto& near : records_->find(wanted, scratch)) {
             const Photon record = (*records_)[near.index];
-            if (dot(record.towards_light(), side) > 0) return record.flux;
+            if (dot(record.towards_light(), wanted.normal) > 0) return record.flux;
         }
         return {};
     }
@@ -137,7 +143,7 @@ Kind photon_irradiance_kind() {
         .params = photon_irradiance_params(),
         .light = {.converts = true},
         .run = {.prepares = true},
-        .reads = reading(ScenePart::geometry | ScenePart::materials),
+        .reads = reading(ScenePart::geometry | ScenePart::materials | ScenePart::lamps),
         .make_light = [](const NodeContext& here) { return std::make_unique<PhotonIrradiance>(here); },
     };
 }

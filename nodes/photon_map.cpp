@@ -70,7 +70,9 @@ public:
         gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
             const auto groups = answers.subspan(i * scene_.groups(), scene_.groups());
             if (!at.point.is_in_space())
-                tree_->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radius_, gather_, scratch, groups);
+                tree_->radiance(
+                    {at.point, at.bsdf, at.outgoing, at.lobes, window_of(scene_, questions[i], photon_window)}, radius_,
+                    gather_, scratch, groups);
             else if (beam_tree_)
                 beam_tree_->radiance(at, radius_, gather_, scratch, groups);
         });

@@ -20,7 +20,8 @@ namespace {
 /// samples. Noise and bias both vanish as samples grow; at edges light is not lost (PhotonSpread). It is made anew for
 /// each pass, and has the maps of that one. Others than the renderer ask about samples of their own: they get the maps
 /// of the pass in turn. At points in media beams answer, whose radius shrinks alike: both blur in two dimensions
-/// (Jarosz et al. 2011, "Progressive photon beams").
+/// (Jarosz et al. 2011, "Progressive photon beams"). On what moves photons count within a window of time, which narrows
+/// as the radius shrinks.
 class ProgressivePhotonMapping final : public LightOp {
 public:
     explicit ProgressivePhotonMapping(const NodeContext& here)
@@ -29,9 +30,13 @@ public:
           beams_(shooting_of_beams(here, shooting_)),
           first_map_(std::uint64_t{here.pass()} * samples_per_block) {
         const double first = here.number("radius"), alpha = here.number("alpha");
-        double squared = std::pow(first > 0 ? first : 0.013 * scene_.radius(), 2);
+        const double first_squared = std::pow(first > 0 ? first : 0.013 * scene_.radius(), 2);
+        double squared = first_squared;
         for (std::uint64_t map = 0; map < first_map_ + samples_per_block; ++map) {
-            if (map >= first_map_) radii_.push_back(float(std::sqrt(squared)));
+            if (map >= first_map_) {
+                radii_.push_back(float(std::sqrt(squared)));
+                windows_.push_back(photon_window * float(std::sqrt(squared / first_squared)));
+            }
             squared *= (double(map) + 1 + alpha) / (double(map) + 2);  // equation 15
         }
     }
@@ -57,7 +62,9 @@ public:
             const std::size_t map = questions[i].sample % samples_per_block;
             const auto groups = answers.subspan(i * scene_.groups(), scene_.groups());
             if (!at.point.is_in_space())
-                maps_[map]->radiance({at.point, at.bsdf, at.outgoing, at.lobes}, radii_[map], 0, scratch, groups);
+                maps_[map]->radiance(
+                    {at.point, at.bsdf, at.outgoing, at.lobes, window_of(scene_, questions[i], windows_[map])},
+                    radii_[map], 0, scratch, groups);
             else if (!beam_maps_.empty())
                 beam_maps_[map]->radiance(at, radii_[map], 0, scratch, groups);
         });
@@ -67,7 +74,8 @@ private:
     const Scene& scene_;
     Shooting shooting_, beams_;
     std::uint64_t first_map_;
-    std::vector<float> radii_;  // m, of each map of the pass
+    std::vector<float> radii_;    // m, of each map of the pass
+    std::vector<float> windows_;  // of each, a part of the shutter's time
     std::vector<std::shared_ptr<const PhotonTree>> maps_;
     std::vector<std::shared_ptr<const BeamTree>> beam_maps_;  // none: there are no media
 };

@@ -9,11 +9,13 @@
 #include "core/base/math/octahedral.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
+#include "core/estimate/photon_time.hpp"
 
 namespace lightnet {
 
 /// Made by PhotonShooter. Directions are rounded, to some 0.003° where light comes from and 0.5° for the surface. The
-/// group of the lamp that it left stands behind the latter.
+/// group of the lamp that it left stands behind the latter. Where something moves, the time at which it came takes the
+/// place of the last bits of the former: 0.1° is left of it, so that a photon is no larger for it.
 struct Photon {
     Vec3 position;
     Rgb flux;  // W
@@ -27,6 +29,17 @@ struct Photon {
           incoming(packed_direction(towards_light)),
           surface(packed_normal(normal) | group << 24) {}
     static std::uint32_t group_in(std::uint32_t surface) { return surface >> 24; }
+
+    void put_time(PhotonTime when) {
+        const std::uint32_t bits = when.instant | (when.on_what_moves ? PhotonTime::instants : 0);
+        incoming = (incoming & ~time_bits) | (bits & 31) | (bits >> 5) << 16;
+    }
+    /// Of a photon that was given one.
+    PhotonTime time() const { return time_in(incoming); }
+    static PhotonTime time_in(std::uint32_t incoming) {
+        const std::uint32_t bits = (incoming & 31) | (incoming >> 16 & 31) << 5;
+        return {bits & (PhotonTime::instants - 1), bits >= PhotonTime::instants};
+    }
 
     /// Unit, away from the surface: where it came from.
     Vec3 towards_light() const { return unpacked_direction(incoming); }
@@ -49,6 +62,7 @@ struct Photon {
 
 private:
     static constexpr float half = 32767.5f;
+    static constexpr std::uint32_t time_bits = 0x001f001f;  // of `incoming`
 
     static std::uint32_t packed_direction(Vec3 direction) {
         const Vec2 p = to_octahedral(direction);

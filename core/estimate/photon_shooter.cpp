@@ -26,6 +26,11 @@ float lean(const SurfacePoint& point, Vec3 arriving, Vec3 leaving) {
     return plain > 0 ? std::min(shaded / plain, 10.0f) : 0;
 }
 
+// One of the instants that photons can tell, so that they lie exactly where they say that they came to.
+ShutterTime drawn_time(Key key, std::uint32_t path) {
+    return PhotonTime::middle_of(PhotonTime::instant_of(time_in_shutter(Samples(key, path).next())));
+}
+
 }  // namespace
 
 PhotonPaths photon_paths(const std::string& name) {
@@ -106,7 +111,8 @@ void PhotonShooter::visit(PhotonPath path, const Ray& ray, const Hit& hit, const
     const SurfacePoint point = scene_.surface(hit);
     const Bsdf bsdf = scene_.bsdf(point);
     const Vec3 arriving = -ray.direction;
-    if ((bsdf.lobes() & lobe::rough) && keeps(path.met_mirror, path.met_rough)) keep.at_surface(path, point, arriving);
+    if ((bsdf.lobes() & lobe::rough) && keeps(path.met_mirror, path.met_rough))
+        keep.at_surface(path, point, arriving, hit);
     go_on(std::move(path), point, bsdf, arriving, batch);
 }
 
@@ -153,7 +159,7 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
         const auto choice = aim.choose(samples);
         const auto& [numbers, weight] = choice;
         if (chosen) chosen->push_back(choice);
-        const ShutterTime time = moves ? time_in_shutter(Samples(time_key, index).next()) : ShutterTime(0);
+        const ShutterTime time = moves ? drawn_time(time_key, index) : ShutterTime(0);
         const auto light = scene_.emit(numbers[0], {numbers[1], numbers[2]}, {numbers[3], numbers[4]}, time);
         if (!light || !(max_component(light->flux) > 0)) continue;
         batch.paths.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share), light->group});
@@ -180,14 +186,18 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
 void PhotonShooter::shoot(std::uint64_t first, std::size_t count, double share, const Aim& aim,
                           std::vector<Photon>& out) const {
     struct Keep {
+        const Scene& scene;
+        bool moves;
         std::vector<Photon>& out;
-        void at_surface(const PhotonPath& path, const SurfacePoint& point, Vec3 arriving) const {
+        void at_surface(const PhotonPath& path, const SurfacePoint& point, Vec3 arriving, const Hit& hit) const {
             out.emplace_back(point.position, path.flux, arriving, point.normal, path.group);
+            if (moves) out.back().put_time({PhotonTime::instant_of(hit.time), scene.moves(hit)});
         }
         void on_way(const PhotonPath&, const Ray&) const {}
     };
     for (std::size_t done = 0; done < count; done += paths_at_once)
-        follow(first + done, std::min(paths_at_once, count - done), float(share), aim, Keep{out}, nullptr);
+        follow(first + done, std::min(paths_at_once, count - done), float(share), aim,
+               Keep{scene_, scene_.moves(), out}, nullptr);
 }
 
 void PhotonShooter::shoot_beams(std::uint64_t first, std::size_t count, double share, const Aim& aim,
@@ -196,7 +206,7 @@ void PhotonShooter::shoot_beams(std::uint64_t first, std::size_t count, double s
         const Scene& scene;
         std::vector<PhotonBeam>& out;
         std::vector<MediumPiece>& pieces;
-        void at_surface(const PhotonPath&, const SurfacePoint&, Vec3) const {}
+        void at_surface(const PhotonPath&, const SurfacePoint&, Vec3, const Hit&) const {}
         void on_way(const PhotonPath& path, const Ray& way) const {
             if (path.inside) return;  // what fills glass only absorbs
             pieces.clear();
@@ -230,7 +240,7 @@ void PhotonShooter::attempt(std::uint64_t first, std::size_t count, const Aim& a
             const std::vector<Aim::Choice>& chosen;
             // What the choice itself added to the flux is none of the gain.
             float gain(const PhotonPath& path) const { return luminance(path.flux) / chosen[path.index].weight; }
-            void at_surface(const PhotonPath& path, const SurfacePoint&, Vec3) const {
+            void at_surface(const PhotonPath& path, const SurfacePoint&, Vec3, const Hit&) const {
                 if (!beams) gains[path.index] += gain(path);
             }
             void on_way(const PhotonPath& path, const Ray&) const {

@@ -41,7 +41,8 @@ Vec3 off_photon(Vec3 position, Vec3 normal) {
 struct PhotonSpread::Disc {
     Vec3 position, normal;  // of the side that the light came from
     float radius;
-    Vec3 eye;  // above it, in the free
+    Vec3 eye;          // above it, in the free
+    ShutterTime time;  // at which the photon came
 
     Vec3 at(Vec2 point) const {
         const Frame frame = Frame::around(normal);
@@ -50,10 +51,11 @@ struct PhotonSpread::Disc {
     Ray ray_to(Vec2 point) const {
         const Vec3 way = at(point) - eye;
         const float distance = length(way);
-        return {eye, way / distance, 2 * distance};
+        return {eye, way / distance, 2 * distance, time};
     }
     Ray down_at(Vec2 point) const {
-        return {at(point) + normal * (just_above * radius), -normal, (just_above + PhotonTree::flatness) * radius};
+        return {at(point) + normal * (just_above * radius), -normal, (just_above + PhotonTree::flatness) * radius,
+                time};
     }
 };
 
@@ -73,8 +75,9 @@ PhotonSpread::PhotonSpread(const Scene& scene, std::shared_ptr<const PhotonTree>
 
 float PhotonSpread::radius_of(const Photon& photon, Nearest& scratch) const {
     if (!(scale_ > 0)) return most_;
+    const PhotonWindow when = scene_.moves() ? window_of(photon.time(), photon_window) : PhotonWindow{};
     const auto found =
-        pilot_->find({photon.position, photon.normal(), most_ / std::sqrt(scale_), pilot_photons}, scratch);
+        pilot_->find({photon.position, photon.normal(), most_ / std::sqrt(scale_), pilot_photons, when}, scratch);
     return found.size() < pilot_photons ? most_ : std::sqrt(found.back().distance2 * scale_);
 }
 
@@ -82,12 +85,14 @@ std::vector<PhotonSpread::Disc> PhotonSpread::discs_of(std::span<const Photon> p
     std::vector<Disc> discs;
     std::vector<Ray> rays;
     Nearest scratch;
+    const bool moves = scene_.moves();
     for (const Photon& photon : photons) {
         Vec3 normal = photon.normal();
         if (dot(normal, photon.towards_light()) < 0) normal = -normal;
         const float radius = radius_of(photon, scratch);
-        rays.push_back({off_photon(photon.position, normal), normal, radius});
-        discs.push_back({photon.position, normal, radius, {}});
+        const ShutterTime time = moves ? photon.time().time() : ShutterTime(0);
+        rays.push_back({off_photon(photon.position, normal), normal, radius, time});
+        discs.push_back({photon.position, normal, radius, {}, time});
     }
     std::vector<std::optional<Hit>> ceilings(rays.size());
     scene_.intersect(rays, ceilings);
@@ -126,7 +131,7 @@ void PhotonSpread::look_behind(std::span<const Disc> discs, std::span<Try> tries
         if (!lands(disc, hits[k])) continue;
         const Vec3 out = Frame::around(disc.normal).to_world(cosine_hemisphere(missed[k]->way_out));
         const Vec3 position = scene_.surface(*hits[k]).position;
-        ways_out.push_back({off_photon(position, disc.normal), out, wide_open * disc.radius});
+        ways_out.push_back({off_photon(position, disc.normal), out, wide_open * disc.radius, disc.time});
         missed[left++] = missed[k];
     }
     hits.resize(ways_out.size());

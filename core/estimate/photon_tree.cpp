@@ -233,7 +233,14 @@ private:
     void visit_leaf(std::size_t leaf) {
         Distances distances{tree_.leaf(leaf), wanted_.position, wanted_.normal, {}};
         work_in_lanes(distances);
+        if (!wanted_.when.whole()) leave_out_other_times(distances);
         found_.offer(distances.distance2, std::uint32_t(leaf * width));
+    }
+
+    void leave_out_other_times(Distances& distances) const {
+        for (std::size_t i = 0; i < width; ++i)
+            if (!wanted_.when.has(Photon::time_in(distances.leaf.light[i].incoming).instant))
+                distances.distance2[i] = out_of_reach;
     }
 
     // No photon in a box is nearer, as it is counted: each step rounds a greater number to no smaller one, and is the
@@ -314,7 +321,7 @@ Rgb PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, Neare
 
 void PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch, std::span<Rgb> to) const {
     if (!(at.bsdf.lobes() & at.lobes)) return;
-    const auto found = find({at.point.position, at.point.normal, radius, most}, scratch);
+    const auto found = find({at.point.position, at.point.normal, radius, most, at.when}, scratch);
     const float r2 = most && found.size() == most ? found.back().distance2 : radius * radius;
     if (found.empty() || !(r2 > 0)) return;
     const Rgb* albedo = at.bsdf.diffuse_albedo();
@@ -336,7 +343,7 @@ void PhotonTree::radiance(const Lookup& at, float radius, std::size_t most, Near
                 sum += flux * at.bsdf.evaluate(at.outgoing, many.incoming[i], at.lobes);
         }
     }
-    for (Rgb& sum : to) sum = sum * (albedo ? *albedo : Rgb{1, 1, 1}) * (2 / (pi * r2));
+    for (Rgb& sum : to) sum = sum * (albedo ? *albedo : Rgb{1, 1, 1}) * (2 / (pi * r2) / at.when.part());
 }
 
 }  // namespace lightnet

@@ -53,6 +53,7 @@ public:
         Vec3 position, normal;
         float radius;          // m
         std::size_t most = 0;  // 0: all of them
+        PhotonWindow when = {};
     };
     /// Those, by distance (heights above the surface count four times), those of equal distance by what they are: what
     /// is found, and in which order, does not depend on photons farther away. It lies in `scratch`.
@@ -64,10 +65,12 @@ public:
         const Bsdf& bsdf;
         Vec3 outgoing;
         std::uint8_t lobes;
+        PhotonWindow when = {};
     };
     /// Radiance that the surface scatters on of what the photons bring: their density under Epanechnikov's kernel,
     /// 2 (1 - d²/r²) / (π r²), whose radius r is the distance of the farthest of `most` photons, or `radius` where
-    /// there are fewer. Without bias where light is even on a plane larger than that.
+    /// there are fewer; of those of a part of the shutter's time, over that part. Without bias where light is even on a
+    /// plane larger than that.
     Rgb radiance(const Lookup& at, float radius, std::size_t most, Nearest& scratch) const;
     /// Radiance of each group of lamps, as radiance() estimates that of their sum, of the photons that are nearest of
     /// all. All groups that photons have must have a place; `to` comes zeroed.

@@ -104,7 +104,8 @@ TEST_F(FramesRun, SendsAndLoadsASceneOnce) {
     EXPECT_EQ(found, 2) << log;
 }
 
-// Meshes of a sequence of files and the graph's own camera, blurred, with the vectors that lead to the next frame.
+// Meshes of a sequence of files and the graph's own camera, blurred, with the vectors that lead to the next frame and
+// light of photons that are gathered near in time.
 TEST_F(FramesRun, BlursFilesOfFramesAlikeInEveryMode) {
     for (const auto& [frame, x] : {std::pair("0001", "0"), std::pair("0002", "0.5"), std::pair("0003", "1.5")})
         folder.write("mesh." + std::string(frame) + ".obj",
@@ -114,9 +115,12 @@ TEST_F(FramesRun, BlursFilesOfFramesAlikeInEveryMode) {
         "eye = keys { [1] = { 0, 0, 5 }, [3] = { 0.4, 0, 5 } }\n"
         "scene = Scene { 'mesh.####.obj', camera = { from = eye, to = { 1, 0, 0 } }, environment = { 1, 1, 1 },\n"
         "                shutter = { -0.25, 0.25 } }\n"
-        "light = DirectLighting {}\n"
+        "light = PhotonMap { paths = 'all', photons = 4000, gather = 20 }\n"
+        "quick = PhotonIrradiance { of = light }\n"
+        "sharper = ProgressivePhotonMapping { paths = 'all', photons = 300 }\n"
         "motion = SurfaceFact { of = 'motion' }\n"
-        "image = RayTracer { light, scene = scene, samples = 4, show = { motion }, film = { 40, 40 } }\n");
+        "image = RayTracer { light, scene = scene, samples = 4, show = { motion, quick, sharper },\n"
+        "                    film = { 40, 40 } }\n");
     const auto graph = folder.file("moving.lua");
     const auto serial = run(graph, "1-3", "serial.####.exr", {"--threads", "1"});
     ASSERT_EQ(serial.code, 0) << serial.text;

@@ -107,6 +107,52 @@ TEST(PhotonMap, FindsTheCausticThatPathTracingFinds) {
     EXPECT_NEAR(caustic, all, 0.04 * all);
 }
 
+/// A plate of 0.4 m that goes by its own length under the sun, with nothing around it.
+SceneData plate_under_the_sun() {
+    SceneData data = lit_floor();
+    data.materials.clear();
+    data.shapes.clear();
+    add(data, quad({-0.4f, 1, -0.2f}, {0, 0, 0.4f}, {0.4f, 0, 0}), diffuse(data, 0.5f));
+    data.motion.shapes.push_back({0, {quad({0, 1, -0.2f}, {0, 0, 0.4f}, {0.4f, 0, 0})}});
+    data.camera = camera({0, 3, 0.0001f}, {0, 1, 0}, 45);
+    return data;
+}
+
+// Its radiance times the part of the plane at its height that it covers, as it never leaves what is seen.
+double light_of_plate() {
+    const double side = 2 * 2 * std::tan(45 * 3.14159265358979 / 360);
+    return 0.5 * 2 / 3.14159265358979 * 0.4 * 0.4 / (side * side);
+}
+
+SmallNetwork plate_seen_by(const char* kind, SmallNetwork::Params params) {
+    SmallNetwork network(plate_under_the_sun(), 32, 32);
+    params["paths"] = word("all");
+    network.add("map", kind, {}, std::move(params));
+    return network;
+}
+
+// Photons lie where it has been, too. Within a sixteenth of the time it goes by a sixteenth of its length, and loses a
+// quarter of that over its edges.
+TEST(PhotonMap, SeesWhatMovesAsBrightAsTheSunMakesIt) {
+    const auto network = plate_seen_by("PhotonMap", {{"photons", number(400000)}, {"gather", number(50)}});
+    const double exact = light_of_plate();
+    EXPECT_NEAR(mean_of(network.picture(64)), exact, 0.04 * exact);
+}
+
+TEST(PhotonIrradiance, SeesWhatMovesAsBrightAsTheSunMakesIt) {
+    auto network = plate_seen_by("PhotonMap", {{"photons", number(400000)}, {"gather", number(50)}});
+    network.add("quick", "PhotonIrradiance", {}, {{"of", Value{NodeRef{"map"}}}}).lit_by("quick");
+    const double exact = light_of_plate();
+    EXPECT_NEAR(mean_of(network.picture(64)), exact, 0.04 * exact);
+}
+
+TEST(ProgressivePhotonMapping, SeesWhatMovesAsBrightAsTheSunMakesIt) {
+    const auto network =
+        plate_seen_by("ProgressivePhotonMapping", {{"photons", number(40000)}, {"radius", number(0.05)}});
+    const double exact = light_of_plate();
+    EXPECT_NEAR(mean_of(network.picture(64)), exact, 0.04 * exact);
+}
+
 // The light of the map itself, in steps.
 TEST(PhotonIrradiance, IsAsBrightAsTheMapThatItTakes) {
     for (const char* paths : {"all", "diffuse"}) {
