@@ -7,6 +7,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/readers/pbrt/older_materials.hpp"
+#include "core/scene/bare_lights/slide_light.hpp"
 #include "core/scene/camera/camera.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/pbrt_text.hpp"
@@ -221,6 +222,14 @@ TEST(OlderPbrt, LaysGoniogramsByLatitudeAndLongitude) {
             ASSERT_TRUE(seen);
             EXPECT_NEAR(seen->radiance.r, 4 * 16 * float((y > 0 ? 0 : 4) + i + 1) / 128 / 2, 0.02f);
         }
+}
+
+TEST(OlderPbrt, ProjectsTheFirstRowOfPicturesDownwards) {
+    const auto data = older("LightSource \"projection\" \"string mapname\" \"sky.hdr\" " + ball, {{"sky.hdr", sky()}});
+    const SlideLight slide(std::get<SpotLight>(data.lights.at(0)));  // of 45°, twice as wide as high
+    const float half = std::tan(pi / 8);
+    EXPECT_NEAR(slide.towards(normalize({-1.5f * half, -0.5f * half, 1})).r, 16.0f / 128, 1e-3f);
+    EXPECT_NEAR(slide.towards(normalize({1.5f * half, 0.5f * half, 1})).r, 1, 1e-3f);
 }
 
 TEST(OlderPbrt, MakesAlphaOfRoughnessByAPolynomial) {

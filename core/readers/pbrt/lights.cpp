@@ -289,8 +289,11 @@ void projection_light(const Making& making) {
     light.axis = *axis;
     light.luminaire = turn_of(making.to_world * hung({0, 0, 1}));
     light.intensity = *colour;
-    Slide slide{image, turn_of(making)};
-    // the angle is that of the shorter side; pbrt's picture has its first row at -y
+    // the picture's first row is at +y in pbrt-v4, at -y in pbrt-v3
+    Matrix rows_down;
+    rows_down.m[1][1] = making.sources.older() ? 1 : -1;
+    Slide slide{image, turn_of(making) * rows_down};
+    // the angle is that of the shorter side
     const float tangent = std::tan(fov / 2 * float_pi / 180), shape = float(image->width) / float(image->height);
     slide.half_width = tangent * std::max(1.0f, shape), slide.half_height = tangent * std::max(1.0f, 1 / shape);
     light.outer = light.inner = std::atan(std::hypot(slide.half_width, slide.half_height)) + 1e-3f;
