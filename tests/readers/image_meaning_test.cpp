@@ -205,6 +205,30 @@ TEST(Tiff, IsNotTurned) {
         EXPECT_EQ(read(test::palette_tiff(turned)).colour(0, 0), (Rgb{1, 0, 0})) << turned;
 }
 
+// Ward Larson 1998, "Overcoming Gamut and Dynamic Range Limitations in Digital Images": brightness is kept to 0.3 % (24
+// bits: 1.1 %), colours to 1/410 (about 1/300) of the whole of u' and v'.
+TEST(Tiff, MayHoldLogarithmsOfBrightness) {
+    const std::vector<float> xyz{0.9505f * 8, 8, 1.089f * 8, 0.4124f * 0.01f, 0.2126f * 0.01f, 0.0193f * 0.01f};
+    for (const int compression : {34676, 34677}) {
+        const Image image = read(test::log_tiff(compression, xyz));
+        ASSERT_EQ(image.width, 2u);
+        expect_near(image.colour(0, 0) * (1 / 8.0f), {1, 1, 1}, 0.05f);
+        expect_near(image.colour(1, 0) * 100, {1, 0, 0}, 0.05f);
+    }
+    const Image grey = read(test::log_tiff(34676, {300, 0.01f}));
+    expect_near(grey.colour(0, 0) * (1 / 300.0f), {1, 1, 1}, 0.004f);
+    expect_near(grey.colour(1, 0) * 100, {1, 1, 1}, 0.004f);
+}
+
+TEST(Png, OfGreyAndAlphaMayHaveSixteenBits) {
+    const std::uint16_t samples[] = {0x2000, 0x4000, 0xFFFF, 0xFFFF};  // grey times alpha, alpha
+    const Image image = read(test::png(PNG_FORMAT_LINEAR_Y_ALPHA, samples));
+    EXPECT_NEAR(image.alpha(0, 0), 0x4000 / 65535.0f, 1e-6f);
+    EXPECT_EQ(image.alpha(1, 0), 1);
+    const float value = 0.5f;
+    expect_near(image.colour(0, 0), Rgb{1, 1, 1} * std::pow((value + 0.055f) / 1.055f, 2.4f), 1e-4f);
+}
+
 // What programs that show pictures would do, glTF and all renderers don't.
 TEST(Png, MeansTheSameWhateverItSaysOfGamma) {
     std::string png = test::small_png();

@@ -136,6 +136,17 @@ std::string grey_tiff(int bits, int format, const std::string& samples) {
     });
 }
 
+std::string log_tiff(int compression, std::vector<float> pixels) {
+    const bool grey = pixels.size() == 2;
+    return tiff_of(2, 1, 32, [&](TIFF* file) {
+        TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, grey ? 1 : 3);
+        TIFFSetField(file, TIFFTAG_PHOTOMETRIC, grey ? PHOTOMETRIC_LOGL : PHOTOMETRIC_LOGLUV);
+        TIFFSetField(file, TIFFTAG_COMPRESSION, compression);
+        TIFFSetField(file, TIFFTAG_SGILOGDATAFMT, SGILOGDATAFMT_FLOAT);
+        TIFFWriteScanline(file, pixels.data(), 0, 0);
+    });
+}
+
 std::string palette_tiff(int turned) {
     return tiff_of(2, 1, 8, [turned](TIFF* file) {
         TIFFSetField(file, TIFFTAG_ORIENTATION, turned);

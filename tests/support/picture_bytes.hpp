@@ -25,6 +25,9 @@ std::string grey_tiff(int bits, int format, const std::string& samples);
 /// Two pixels beside each other, of a palette: red, and a blue that is half of 255; `turned`: how cameras say it was
 /// held.
 std::string palette_tiff(int turned = 1);
+/// Two pixels beside each other by the logarithm of their brightness: two numbers, or X, Y and Z of each.
+/// `compression`: 34676 of 32 bits each (16 of grey), 34677 of 24.
+std::string log_tiff(int compression, std::vector<float> pixels);
 /// 3 x 2 pixels of 32, 24 or 16 bits, or (8) grey: red, green, blue over white, half, black; in runs or not.
 std::string tga(int bits, bool packed);
 /// Eight pixels of {1, 0.5, 0.25} with run lengths.

@@ -1,5 +1,5 @@
-// TIFF, with libtiff: whole numbers of 8 to 32 bits and floats, in strips or tiles; whatever else there is, as libtiff
-// turns it into 8 bits.
+// TIFF, with libtiff: whole numbers of 8 to 32 bits, floats and logarithms of brightness, in strips or tiles; whatever
+// else there is, as libtiff turns it into 8 bits.
 #include <half.h>
 #include <tiffio.h>
 
@@ -106,7 +106,11 @@ struct Layout {
             (format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT) && (bits == 8 || bits == 16 || bits == 32);
         const bool rgb = colours == PHOTOMETRIC_RGB && (channels == 3 || channels == 4);
         const bool grey = colours == PHOTOMETRIC_MINISBLACK && channels <= 2;
-        return (whole || floats()) && (rgb || grey);
+        return (whole || floats()) && (rgb || grey || (logarithms() && floats()));
+    }
+    /// SGI's: of the brightness alone, or with colours. libtiff turns them into floats: Y, or X, Y and Z.
+    bool logarithms() const {
+        return (colours == PHOTOMETRIC_LOGL && channels == 1) || (colours == PHOTOMETRIC_LOGLUV && channels == 3);
     }
     /// Do they stand colour by colour?
     bool apart() const { return planes == PLANARCONFIG_SEPARATE && channels > 1; }
@@ -116,6 +120,10 @@ struct Layout {
 
 Layout layout_of(TIFF* tiff) {
     Layout found;
+    std::uint16_t kind = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &kind);
+    if (kind == COMPRESSION_SGILOG || kind == COMPRESSION_SGILOG24)
+        TIFFSetField(tiff, TIFFTAG_SGILOGDATAFMT, SGILOGDATAFMT_FLOAT);
     TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &found.width);
     TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &found.height);
     TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &found.bits);
@@ -213,6 +221,7 @@ Image image_of_floats(const Layout& layout, const std::vector<std::uint8_t>& row
         pixels[i] = channels > 2 ? Rgb{number[0], number[1], number[2]} : Rgb{number[0], number[0], number[0]};
         if (!alpha.empty()) alpha[i] = number[channels - 1];
     }
+    if (layout.colours == PHOTOMETRIC_LOGLUV) turn_to_ours(cie_xyz, pixels);
     return {layout.width, layout.height, pixels, alpha};
 }
 
