@@ -90,7 +90,7 @@ TEST(Gltf, KnowsStripsAndFans) {
     EXPECT_THAT(count(5), SizeIs(1));
     EXPECT_THAT(count(6), SizeIs(1));
     EXPECT_THAT(errors_of_gltf(with_triangle(one_node, R"({"attributes":{"POSITION":0},"mode":1})")),
-                HasSubstr("there are no triangles"));
+                HasSubstr("there are no triangles: its points and lines have no surface"));
 }
 
 TEST(Gltf, WithACameraMayShowNothingButWhatIsAround) {

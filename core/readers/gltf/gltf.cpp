@@ -63,12 +63,25 @@ void check_extensions(const At& root) {
             root.warn(fmt::format("extension '{}' is left out: the picture shows nothing of it", name.substr(0, 64)));
 }
 
+bool has_points_or_lines(const At& meshes) {
+    constexpr std::uint64_t triangles = 4;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const At primitives = meshes[i]["primitives"];
+        for (std::size_t j = 0; j < primitives.size(); ++j)
+            if (primitives[j]["mode"].whole(triangles) < triangles) return true;
+    }
+    return false;
+}
+
 /// All may be hidden, or have gone where no camera looks: a file that has one means that.
-void nothing_stands(const SceneData& scene, Report& report, const std::string& path) {
+void nothing_stands(const SceneData& scene, const Document& document, Report& report) {
+    const SourceLine where{document.path(), 0};
     if (scene.camera_given)
-        report.warn({path, 0}, "there are no triangles: nothing is seen but what is around the scene");
+        report.warn(where, "there are no triangles: nothing is seen but what is around the scene");
+    else if (has_points_or_lines(document.root()["meshes"]))
+        report.error(where, "there are no triangles: its points and lines have no surface, so nothing of them is seen");
     else
-        report.error({path, 0}, "there are no triangles");
+        report.error(where, "there are no triangles");
 }
 
 /// What is wanted of a file.
@@ -110,7 +123,7 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
         const auto morphing = move_to(moment, document);
         add_nodes(document, assets, {variant, morphing, moment.seconds.has_value()});
         document.warn_of_unread();
-        if (scene.shapes.empty() && report.good()) nothing_stands(scene, report, path);
+        if (scene.shapes.empty() && report.good()) nothing_stands(scene, document, report);
         if (std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); }) &&
             scene.environments.empty() && scene.lights.empty())
             report.warn({path, 0}, "only its own glowing surfaces light the scene, where viewers show a sky, too " +
