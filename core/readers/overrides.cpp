@@ -14,6 +14,7 @@
 #include "core/base/in_quotes.hpp"
 #include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
+#include "core/readers/common/below_black.hpp"
 #include "core/readers/common/report.hpp"
 #include "core/readers/daylight/daylight.hpp"
 #include "core/readers/images/image_facts.hpp"
@@ -150,7 +151,8 @@ EnvironmentData picture_around(const std::string& path, SceneData& scene, Files&
         expect_image(files.beginning(path, image_beginning));
         auto [image, remark] = sound(read_image(*files.read(path)));
         environment.image = std::make_shared<const Image>(std::move(image));
-        if (!remark.empty()) scene.warnings.push_back({where, "'environment': '" + path + "': " + remark});
+        for (const std::string& said : {remark, below_black(*environment.image)})
+            if (!said.empty()) scene.warnings.push_back({where, "'environment': '" + path + "': " + said});
     } catch (const Error& problem) {
         throw UserError(where, "'environment': can't read '" + path + "': " + problem.what());
     }

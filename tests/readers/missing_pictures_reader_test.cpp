@@ -63,6 +63,51 @@ TEST(StrangePictures, HaveSoundNumbersAndAreNamed) {
     expect_sound(obj, model_of<DiffuseMaterial>(obj).reflectance);
 }
 
+std::string pfm_of(const std::vector<float>& numbers) {
+    std::string text = "PF\n" + std::to_string(numbers.size() / 3) + " 1\n-1\n";
+    for (const float number : numbers) text.append(reinterpret_cast<const char*>(&number), 4);
+    return text;
+}
+
+TEST(StrangePictures, BelowBlackAreNamedButForRelief) {
+    const MemoryFiles files{{"s.pfm", pfm_of({-1, 0.5f, 0.5f, 0.25f, 0.25f, -2, 1, 1, 1})}};
+    const auto expect_named = [](const SceneData& scene) {
+        EXPECT_THAT(warnings_of(scene), HasSubstr("s.pfm': 2 of its pixels are negative: 0 is taken"));
+    };
+    const auto expect_silent = [](const SceneData& scene) {
+        EXPECT_THAT(warnings_of(scene), testing::Not(HasSubstr("negative")));
+    };
+    const auto bitmap = [](const std::string& name) {
+        return "<texture type='bitmap' name='" + name + "'><string name='filename' value='s.pfm'/></texture>";
+    };
+    expect_named(read_mitsuba_bsdf("<bsdf type='diffuse'>" + bitmap("reflectance") + "</bsdf>", files));
+    expect_named(read_mitsuba(
+        "<shape type='sphere'/><emitter type='envmap'><string name='filename' value='s.pfm'/></emitter>", files));
+    for (const std::string relief : {"normalmap", "bumpmap"})
+        expect_silent(
+            read_mitsuba_bsdf("<bsdf type='" + relief + "'>" + bitmap("map") + "<bsdf type='diffuse'/></bsdf>", files));
+
+    expect_named(read_world("LightSource \"infinite\" \"string filename\" \"s.pfm\"\n", files));
+    const std::string pictured = "\"imagemap\" \"string filename\" \"s.pfm\"\n";
+    expect_named(read_world("Texture \"a\" \"spectrum\" " + pictured +
+                                "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"a\" \"float scale\" 2\n"
+                                "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n",
+                            files));
+    expect_silent(read_world("Texture \"t\" \"float\" " + pictured +
+                                 "Material \"diffuse\" \"texture displacement\" \"t\"\nShape \"sphere\"\n",
+                             files));
+    expect_silent(read_world("Material \"diffuse\" \"string normalmap\" \"s.pfm\"\nShape \"sphere\"\n", files));
+
+    const auto obj = [&](const std::string& key) {
+        MemoryFiles all = files;
+        all.add("m.mtl", "newmtl a\n" + key + " s.pfm\n");
+        return read_as("m.obj", "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", all);
+    };
+    expect_named(obj("map_Kd"));
+    expect_silent(obj("norm"));
+    expect_silent(obj("bump"));
+}
+
 TEST(MissingPictures, AreGreyInPbrtsScenes) {
     for (const auto& [name, why] : bad) {
         const std::string file = "\"string filename\" \"" + std::string(name) + "\"";

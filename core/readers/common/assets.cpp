@@ -96,6 +96,12 @@ std::shared_ptr<const Image> Assets::no_picture(const std::string& name, const s
     return or_grey(name, {nullptr, why}, where);
 }
 
+std::vector<NamedImage> Assets::pictures(const SourceLine& where) const {
+    std::vector<NamedImage> all;
+    for (const auto& [key, picture] : pictures_) all.push_back({picture.image.get(), std::get<0>(key), where});
+    return all;
+}
+
 TextureId Assets::add(Texture texture) {
     scene_.textures.push_back(std::move(texture));
     return static_cast<TextureId>(scene_.textures.size() - 1);
@@ -142,6 +148,7 @@ SceneData read_by_assets(Files& files, const std::string& path, const std::funct
     Assets assets(files, report, scene);
     fill(assets);
     report.check();
+    warn_below_black(scene, assets.pictures({path, 0}), report);
     if (!has_light(scene)) {
         report.warn({path, 0},
                     "there is no light: a constant environment of radiance 1 is taken " + std::string(choose_around));

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/readers/common/below_black.hpp"
 #include "core/readers/common/report.hpp"
 #include "core/readers/files/files.hpp"
 #include "core/readers/files/other_places.hpp"
@@ -61,6 +62,9 @@ public:
     TextureId colour(Rgb value);
     TextureId grey(float value) { return colour({value, value, value}); }
     MaterialId add(Material material);
+
+    /// The images that were read, for what is said of them in the end.
+    std::vector<NamedImage> pictures(const SourceLine& where) const;
 
     Report& report() const { return report_; }
     SceneData& scene() const { return scene_; }

@@ -117,6 +117,7 @@ void Builder::finish() {
     textures_.finish();  // waits for the meshes as well
     finish_shapes();
     finish_film();
+    pictures_.warn_below_black(scene_);
     scene_.warnings = sources_.report.warnings();
 }
 

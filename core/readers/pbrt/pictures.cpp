@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/readers/common/below_black.hpp"
 #include "core/readers/files/other_places.hpp"
 #include "core/readers/images/image_facts.hpp"
 
@@ -81,6 +82,12 @@ void Pictures::finish() {
     }
     if (pixels_ > most_pixels && !std::exchange(too_many_, true))
         sources_.report.error({sources_.main, 0}, "the images of the scene have more than 2^28 pixels in all");
+}
+
+void Pictures::warn_below_black(const SceneData& scene) const {
+    std::vector<NamedImage> all;
+    for (const auto& order : orders_) all.push_back({order->image.get(), order->name, order->where});
+    lightnet::warn_below_black(scene, all, sources_.report);
 }
 
 }  // namespace lightnet::pbrt

@@ -27,6 +27,8 @@ public:
     /// Waits until all images are there. Those that can't be read are mid-grey, with warnings in the order in which
     /// they came.
     void finish();
+    /// Warns of pixels below black; once the scene is there.
+    void warn_below_black(const SceneData& scene) const;
 
 private:
     struct Order {
