@@ -87,7 +87,7 @@ struct Host::Service {
     std::string launcher;  // route to it
     // Without a word from it for so long, its run is over.
     Lease lease{std::chrono::milliseconds(400), std::chrono::seconds(4), std::chrono::seconds(12)};
-    DaemonFigures figures;                  // of runs that have ended, and how many began
+    DaemonFigures figures;  // of runs that have ended, and how many began
     ShownFigures shown;
     Time needed{};  // last, by anyone
 

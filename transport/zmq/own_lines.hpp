@@ -32,9 +32,9 @@ struct Source {
 };
 
 /// One line to each host of the LineBook. A packet over one of them goes from thread to thread six times there and
-/// back where the other place idles (see Leadership), and ten times by way of the hosts. One is used as soon as the host has greeted it, for as many bytes as the
-/// book has room for: then nothing need wait its turn, nor be marked, which a place that computes could not answer in
-/// time. One thread's.
+/// back where the other place idles (see Leadership), and ten times by way of the hosts. One is used as soon as the
+/// host has greeted it, for as many bytes as the book has room for: then nothing need wait its turn, nor be marked,
+/// which a place that computes could not answer in time. One thread's.
 class OwnLines {
 public:
     /// `book` null: there are none.
