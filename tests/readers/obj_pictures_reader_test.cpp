@@ -4,24 +4,16 @@
 #include <png.h>
 
 #include "core/scene/textures/look_up.hpp"
+#include "tests/support/obj_text.hpp"
 #include "tests/support/picture_bytes.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::obj_pictures_reader_test {
 namespace {
 
+using namespace obj_text;
 using testing::HasSubstr;
 using testing::Not;
-
-const std::string dot = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x80\x80\x81", 4);
-const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-
-SceneData with_material(const std::string& statements, MemoryFiles files = {}) {
-    files.add("m.mtl", "newmtl a\n" + statements);
-    return read_as("m.obj", "mtllib m.mtl\nusemtl a\n" + corners + "f 1 2 3\n", std::move(files));
-}
-
-const Material& material_of(const SceneData& scene) { return scene.materials[scene.shapes[0].material]; }
 
 std::string pixel_of(const std::string& rgbe) { return "#?RADIANCE\n\n-Y 1 +X 1\n" + rgbe; }
 

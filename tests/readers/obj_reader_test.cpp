@@ -5,25 +5,17 @@
 #include <cmath>
 
 #include "core/readers/common/mesh_tools.hpp"
+#include "tests/support/obj_text.hpp"
 #include "tests/support/scene_text.hpp"
 
 namespace lightnet::test::obj_reader_test {
 namespace {
 
+using namespace obj_text;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
-
-const std::string dot = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x80\x80\x81", 4);
-const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-
-SceneData with_material(const std::string& statements, MemoryFiles files = {}) {
-    files.add("m.mtl", "newmtl a\n" + statements);
-    return read_as("m.obj", "mtllib m.mtl\nusemtl a\n" + corners + "f 1 2 3\n", std::move(files));
-}
-
-const Material& material_of(const SceneData& scene) { return scene.materials[scene.shapes[0].material]; }
 
 TEST(Obj, CountsFromBothEndsAndCutsPolygons) {
     const auto scene = read_as("a.obj", corners + "f 1 2 3 4\nf -4 -3 -2\nf 1//  2// 3//\n");
