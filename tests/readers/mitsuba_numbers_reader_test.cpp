@@ -38,6 +38,27 @@ TEST(MitsubaNumbers, OfColoursAreTheirLuminance) {
         "<rgb name='color1' value='1, .5, 0'/></texture><bsdf type='diffuse'/></bsdf>";
     EXPECT_NEAR(number(squares, opacity), luminance, 1e-5f);
     EXPECT_NEAR(number(mask, opacity, "0.6.0"), 0.5f, 1e-5f);  // there it is their mean
+    const std::string scaled =
+        "<bsdf type='mask'><texture name='opacity' type='scale'><float name='scale' value='.5'/>" + texture("value") +
+        "</texture><bsdf type='diffuse'/></bsdf>";
+    EXPECT_NEAR(number(scaled, opacity), luminance / 2, 1e-5f);
+}
+
+TEST(MitsubaNumbers, OfColoursOfMeshesAreTheirLuminance) {
+    std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\n";
+    for (const char* name : {"x", "y", "z", "color_r", "color_g", "color_b"})
+        ply += std::string("property float ") + name + "\n";
+    ply += "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const char* place : {"0 0", "1 0", "0 1"}) ply += std::string(place) + " 0 1 .5 0\n";
+    const auto scene = read_mitsuba(
+        "<shape type='ply'><string name='filename' value='m.ply'/><bsdf type='mask'>"
+        "<texture name='opacity' type='mesh_attribute'><string name='name' value='vertex_color'/></texture>"
+        "<bsdf type='diffuse'/></bsdf></shape>",
+        {{"m.ply", ply + "3 0 1 2\n"}});
+    TexturePlace place{{0, 0}};
+    place.vertex_colour = {1, 0.5f, 0};
+    const Rgb opacity = look_up(scene.textures, material_of(scene).opacity.value(), place);
+    EXPECT_NEAR(opacity.r, 0.2126f + 0.7152f / 2, 1e-5f);
 }
 
 TEST(MitsubaColours, ThatNothingCanHaveAreNamed) {

@@ -71,7 +71,8 @@ std::vector<Texture> all_textures() {
             {{1, 1, 1}, NoiseTexture{}, false},
             {{1, 1, 1}, MarbleTexture{}, false},
             {{1, 1, 1}, OtherUvTexture{1}, false},
-            {{1, 1, 1}, VertexAlpha{}, false}};
+            {{1, 1, 1}, VertexAlpha{}, false},
+            {{1, 1, 1}, GreyTexture{1}, false}};
 }
 
 SceneData room() {

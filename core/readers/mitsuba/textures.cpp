@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/readers/images/image_facts.hpp"
 #include "core/readers/mitsuba/colours.hpp"
 #include "core/readers/mitsuba/transforms.hpp"
+#include "core/scene/textures/look_up.hpp"
 
 namespace lightnet::mitsuba {
 namespace {
@@ -65,24 +67,29 @@ TextureId Textures::number(Properties& properties, std::string_view name, float 
     return as_number(get(properties, name, fallback));
 }
 
+bool Textures::is_coloured(const Texture& texture) const {
+    if (texture.scale.r != texture.scale.g || texture.scale.g != texture.scale.b) return true;
+    if (const auto* image = std::get_if<ImageTexture>(&texture.pattern))
+        return image->channel == ImageTexture::Channel::colour && lightnet::is_coloured(*image->image);
+    const auto inputs = inputs_of(texture);
+    return std::holds_alternative<VertexColour>(texture.pattern) ||
+           std::any_of(inputs.begin(), inputs.end(),
+                       [&](TextureId input) { return is_coloured(context_.assets.scene().textures[input]); });
+}
+
 // Mitsuba's Texture::eval_1(), in version 0.6 Spectrum::average()
 TextureId Textures::as_number(TextureId colours) {
-    const bool older = context_.document.version < 2;
-    const auto grey = [&](Rgb c) { return Rgb{1, 1, 1} * (older ? (c.r + c.g + c.b) / 3 : luminance(c)); };
     Texture texture = context_.assets.scene().textures[colours];
-    const Rgb scale = texture.scale;
-    if (scale.r != scale.g || scale.g != scale.b) texture.scale = grey(scale);
-    bool same = texture.scale == scale;
-    if (auto* image = std::get_if<ImageTexture>(&texture.pattern);
-        image && image->channel == ImageTexture::Channel::colour && is_coloured(*image->image)) {
-        image->channel = older ? ImageTexture::Channel::mean : ImageTexture::Channel::luminance;
-        same = false;
-    } else if (auto* squares = std::get_if<CheckerTexture>(&texture.pattern)) {
-        const CheckerTexture before = *squares;
-        squares->even = as_number(before.even), squares->odd = as_number(before.odd);
-        same = same && squares->even == before.even && squares->odd == before.odd;
+    if (!is_coloured(texture)) return colours;
+    const bool older = context_.document.version < 2;
+    using By = GreyTexture::By;
+    if (is_constant(texture)) {
+        const Rgb c = texture.scale;
+        texture.scale = Rgb{1, 1, 1} * (older ? (c.r + c.g + c.b) / 3 : luminance(c));
+    } else {
+        texture = {{1, 1, 1}, GreyTexture{colours, older ? By::mean : By::luminance}, false};
     }
-    return same ? colours : context_.assets.add(texture);
+    return context_.assets.add(texture);
 }
 
 TextureId Textures::of(const Node& node) {

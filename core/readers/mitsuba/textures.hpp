@@ -38,6 +38,7 @@ private:
     TextureId checkerboard(Properties& properties);
     TextureId scaled(Properties& properties);
     TextureId raw(Properties& properties);
+    bool is_coloured(const Texture& texture) const;
     TextureId as_number(TextureId colours);
 
     const Context& context_;

@@ -124,6 +124,10 @@ struct Pattern {
         return of(t.first) * (Rgb{1, 1, 1} - amount) + of(t.second) * amount;
     }
     Rgb operator()(VertexColour) const { return place.vertex_colour; }
+    Rgb operator()(const GreyTexture& t) const {
+        const Rgb colour = of(t.texture);
+        return grey(t.by == GreyTexture::By::mean ? (colour.r + colour.g + colour.b) / 3 : luminance(colour));
+    }
     Rgb operator()(const ProjectedTexture& t) const {
         TexturePlace there = place;
         there.uv = projected(t, place.position);

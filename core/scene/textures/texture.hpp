@@ -154,6 +154,17 @@ void visit_members(Is<MarbleTexture> auto& marble, const auto& visit) {
     visit(octaves, roughness, variation, from_world);
 }
 
+/// One number for each colour of another texture, as grey.
+struct GreyTexture {
+    enum class By { luminance, mean };
+    TextureId texture = 0;
+    By by = By::luminance;
+};
+void visit_members(Is<GreyTexture> auto& grey, const auto& visit) {
+    auto& [texture, by] = grey;
+    visit(texture, by);
+}
+
 /// The colours of the mesh's vertices; white where it has none.
 struct VertexColour {};
 void visit_members(Is<VertexColour> auto&, const auto&) { static_assert(std::is_empty_v<VertexColour>); }
@@ -168,7 +179,7 @@ struct Texture {
     Rgb scale{1, 1, 1};
     std::variant<std::monostate, ImageTexture, CheckerTexture, ProductTexture, MixTexture, VertexColour,
                  ProjectedTexture, CubesTexture, DotsTexture, DirectionTexture, NoiseTexture, MarbleTexture,
-                 OtherUvTexture, VertexAlpha>
+                 OtherUvTexture, VertexAlpha, GreyTexture>
         pattern;
     bool invert = false;
 };
