@@ -100,8 +100,9 @@ TEST(GltfClearcoat, HasANormalMapOfItsOwn) {
         with(R"("KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":0,"scale":0.5}})");
     const auto& coat = model_of<PrincipledMaterial>(scene).coat_normal;
     EXPECT_TRUE(coat.own);
-    EXPECT_EQ(coat.scale, 0.5f);
-    EXPECT_FLOAT_EQ(red_of(scene, coat.map), 1);
+    ASSERT_TRUE(coat.map);
+    EXPECT_EQ(coat.map->scale, 0.5f);
+    EXPECT_FLOAT_EQ(red_of(scene, coat.map->texture), 1);
     EXPECT_THAT(warnings_of(scene), Not(HasSubstr("clear coat")));
 }
 

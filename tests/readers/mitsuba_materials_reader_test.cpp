@@ -262,7 +262,8 @@ TEST(MitsubaMaps, AreKeptWithTheInnerBsdf) {
         "<bsdf type='bumpmap'>" + map + "<float name='scale' value='3'/><bsdf type='diffuse'/></bsdf>", files);
     EXPECT_EQ(bumpy.textures[material_of(bumpy).bump_map.value()].scale.r, 3);
     const auto turned = read_mitsuba_bsdf("<bsdf type='normalmap'>" + map + "<bsdf type='diffuse'/></bsdf>", files);
-    EXPECT_TRUE(material_of(turned).normal_map.has_value());
+    ASSERT_TRUE(material_of(turned).normal_map.has_value());
+    EXPECT_EQ(material_of(turned).normal_map->green, NormalMap::Green::across);
     const auto masked =
         read_mitsuba_bsdf("<bsdf type='mask'><float name='opacity' value='.25'/><bsdf type='diffuse'/></bsdf>");
     EXPECT_EQ(colour_of(masked, material_of(masked).opacity.value()).r, 0.25f);

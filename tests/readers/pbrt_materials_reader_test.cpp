@@ -150,7 +150,8 @@ TEST(PbrtMaterials, MayHaveBumpsAndNormalMaps) {
         pictures());
     const Material& material = scene.materials[scene.shapes[0].material];
     EXPECT_TRUE(material.bump_map);
-    EXPECT_TRUE(material.normal_map);
+    ASSERT_TRUE(material.normal_map);
+    EXPECT_EQ(material.normal_map->green, NormalMap::Green::across);
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 

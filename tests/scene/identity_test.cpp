@@ -34,7 +34,8 @@ std::vector<Material> all_materials() {
         Material& material = materials.emplace_back();
         material.name = "named";
         material.model = std::move(model);
-        material.opacity = material.normal_map = material.bump_map = TextureId{0};
+        material.opacity = material.bump_map = TextureId{0};
+        material.normal_map = NormalMap{0, 0.5f, NormalMap::Green::across};
     };
     add(DiffuseMaterial{1, 0.1f, TextureId{1}});
     add(ConductorMaterial{{1, 1, TextureId{1}}, rough(), TextureId{1}});
@@ -45,7 +46,8 @@ std::vector<Material> all_materials() {
     all.metallic_texture = all.transmission_texture = all.specular_texture = all.specular_colour_texture =
         all.sheen_texture = all.sheen_roughness_texture = all.clearcoat_texture = all.grooves.texture =
             all.film.share_texture = all.film.thickness_texture = all.translucence.share_texture =
-                all.translucence.colour_texture = all.coat_normal.map = TextureId{1};
+                all.translucence.colour_texture = TextureId{1};
+    all.coat_normal.map = NormalMap{1};
     all.roughness = all.clearcoat_roughness = rough();
     add(all);
     add(MixtureMaterial{0, 1, 1});
@@ -229,7 +231,7 @@ TEST(Identity, KnowsGlassRoughnessMetalsCutOutsBumpsAndTheSidesOfLamps) {
     expect_another("a portal", [](SceneData& scene) {
         scene.environments[0].portal = Portal{{}, {1, 0, 0}, {0, 1, 0}};
     });
-    expect_another("bumps", [](SceneData& scene) { scene.materials[0].normal_scale = 2; });
+    expect_another("bumps", [](SceneData& scene) { scene.materials[0].normal_map = NormalMap{0, 2}; });
     expect_another("normals", [](SceneData& scene) { std::get<Mesh>(scene.shapes[0].geometry).normals[1].x = 1; });
     expect_another("uv", [](SceneData& scene) { std::get<Mesh>(scene.shapes[0].geometry).uvs[2].y = 0.5f; });
     expect_another("sides", [](SceneData& scene) { scene.shapes[0].emission->two_sided = true; });
@@ -292,7 +294,7 @@ TEST(SceneTree, HasWhatHangsOnSurfacesChangeWithThem) {
     const SceneParts all = scene_of_light;
     EXPECT_EQ(changed_by([](SceneData& scene) { scene.instances[0].to_world.m[0][3] = 7; }),
               ScenePart::geometry | SceneParts(ScenePart::lamps) | ScenePart::media);
-    EXPECT_EQ(changed_by([](SceneData& scene) { scene.materials[0].normal_scale = 7; }), all);
+    EXPECT_EQ(changed_by([](SceneData& scene) { scene.materials[0].normal_map->scale = 7; }), all);
     EXPECT_EQ(changed_by([](SceneData& scene) { scene.textures[0].scale.r = 7; }), all);
     EXPECT_EQ(changed_by([](SceneData& scene) { scene.around = 0; }), SceneParts(ScenePart::media));
 }

@@ -88,13 +88,13 @@ TEST(Coats, MayHaveANormalOfTheirOwn) {
         return shading.bsdf(at(shading, 0.5f, 0.2f)).evaluate(normal, normal, lobe::all).r;
     };
     const float most = brightest(up);
-    data.materials[0].normal_map = map;
+    data.materials[0].normal_map = NormalMap{map};
     EXPECT_NEAR(brightest(n), most, 1e-3f * most) << "it follows the bumps of all";
     lacquer.coat_normal.own = true;
     data.materials[0].model = lacquer;
     EXPECT_NEAR(brightest(up), most, 1e-3f * most) << "it does not";
     data.materials[0].normal_map.reset();
-    lacquer.coat_normal.map = map;
+    lacquer.coat_normal.map = NormalMap{map};
     data.materials[0].model = lacquer;
     EXPECT_NEAR(brightest(n), most, 1e-3f * most) << "it has bumps of its own";
 }

@@ -92,7 +92,10 @@ inline void add_bumpy(SceneData& data, std::uint32_t plain, std::uint32_t gloss,
     for (const std::uint32_t smooth : {plain, gloss, still_a_mirror})
         for (const bool by_height : {false, true}) {
             Material bumpy = data.materials[smooth];
-            (by_height ? bumpy.bump_map : bumpy.normal_map) = by_height ? heights : normals;
+            if (by_height)
+                bumpy.bump_map = heights;
+            else
+                bumpy.normal_map = NormalMap{normals};
             data.materials.push_back(bumpy);
             Mesh mesh = waves();
             for (Vec3& p : mesh.positions) {

@@ -225,9 +225,9 @@ TEST(NormalMaps, TurnTheNormalAlongTheTexture) {
     SceneData data;
     const Vec3 n = normalize({0.2f, 0.1f, 1});
     add(data, textured_square(), mirror(data, 1));
-    data.materials[0].normal_map = picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}});
+    data.materials[0].normal_map = NormalMap{picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}})};
     EXPECT_NEAR(length(normal_under(data, 0.5f, 0.2f) - n), 0, 1e-5f);
-    data.materials[0].normal_scale = 0;
+    data.materials[0].normal_map->scale = 0;
     EXPECT_NEAR(length(normal_under(data, 0.5f, 0.2f) - up), 0, 1e-6f);
 }
 
@@ -237,14 +237,16 @@ TEST(NormalMaps, KnowTexturesThatAreLaidTheOtherWayRound) {
     Mesh mesh = textured_square();
     for (Vec2& uv : mesh.uvs) uv.x = 1 - uv.x;
     add(data, mesh, mirror(data, 1));
-    data.materials[0].normal_map = picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}});
+    data.materials[0].normal_map = NormalMap{picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}})};
     EXPECT_NEAR(length(normal_under(data, 0.5f, 0.2f) - Vec3{-n.x, n.y, n.z}), 0, 1e-5f);
+    data.materials[0].normal_map->green = NormalMap::Green::across;
+    EXPECT_NEAR(length(normal_under(data, 0.5f, 0.2f) - Vec3{-n.x, -n.y, n.z}), 0, 1e-5f);
 }
 
 TEST(NormalMaps, LetNoLightThrough) {
     SceneData data;
     add(data, textured_square(), diffuse(data, 1));
-    data.materials[0].normal_map = picture(data, 1, 1, {{0.99f, 0.5f, 0.3f}});  // points into the surface
+    data.materials[0].normal_map = NormalMap{picture(data, 1, 1, {{0.99f, 0.5f, 0.3f}})};  // points into the surface
     const Shading shading(data);
     const Bsdf bsdf = shading.bsdf(at(shading, 0.5f, 0.2f));
     for (std::uint32_t i = 0; i < 2000; ++i) {

@@ -27,7 +27,8 @@ TEST(VertexTangents, TurnNormalMaps) {
         Mesh mesh = textured_square();
         mesh.tangents.assign(mesh.positions.size(), {{0, 1, 0}, hand});
         add(data, mesh, mirror(data, 1));
-        data.materials[0].normal_map = picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}});
+        data.materials[0].normal_map =
+            NormalMap{picture(data, 1, 1, {{n.x / 2 + 0.5f, n.y / 2 + 0.5f, n.z / 2 + 0.5f}})};
         EXPECT_NEAR(length(normal_under(data) - Vec3{-n.y * hand, n.x, n.z}), 0, 1e-5f);
     }
 }

@@ -163,6 +163,12 @@ std::optional<TextureId> Materials::texture(const At& info, Kind kind, Rgb scale
     return place ? assets_.add({{1, 1, 1}, OtherUvTexture{map, std::uint32_t(place - 1)}, false}) : map;
 }
 
+std::optional<NormalMap> Materials::normal_map(const At& info) {
+    const float scale = info["scale"].real(1);
+    const auto map = texture(info, Kind::numbers, {1, 1, 1});
+    return map ? std::optional(NormalMap{*map, scale}) : std::nullopt;
+}
+
 /// The colour of a surface: factor × image × the colours of the mesh.
 TextureId Materials::base(const At& info, Rgb factor, bool painted) {
     const auto map = texture(info, Kind::colour, factor);
@@ -215,7 +221,7 @@ void Materials::coat(const At& clear, PrincipledMaterial& model) {
     model.clearcoat_roughness.texture =
         texture(clear["clearcoatRoughnessTexture"], Kind::numbers, {1, 1, 1}, Channel::green);
     const At bumps = clear["clearcoatNormalTexture"];
-    model.coat_normal = {true, texture(bumps, Kind::numbers, {1, 1, 1}), bumps["scale"].real(1)};
+    model.coat_normal = {true, normal_map(bumps)};
 }
 
 /// What becomes of light at the surface.
@@ -322,8 +328,7 @@ Surface Materials::make(const At& at, Painted painted) {
         material.model = DiffuseMaterial{assets_.grey(0)};
     } else {
         material.model = model;
-        material.normal_map = texture(at["normalTexture"], Kind::numbers, {1, 1, 1});
-        material.normal_scale = at["normalTexture"]["scale"].real(1);
+        material.normal_map = normal_map(at["normalTexture"]);
     }
     surface.material = assets_.add(std::move(material));
     return surface;

@@ -52,6 +52,7 @@ private:
 
     std::optional<TextureId> texture(const At& info, Kind kind, Rgb scale,
                                      ImageTexture::Channel channel = ImageTexture::Channel::colour);
+    std::optional<NormalMap> normal_map(const At& info);
     std::optional<ImageTexture> picture(const At& info, Kind kind);
     std::size_t place_of_set(const At& info);
     std::shared_ptr<const Image> image(const At& index, Kind kind);

@@ -116,7 +116,7 @@ Material Bsdfs::normal_map(Properties& properties) {
     if (maps.empty())
         context_.error(properties.node(), "a normalmap needs a texture");
     else
-        material.normal_map = textures_.of(*maps[0]);
+        material.normal_map = NormalMap{textures_.of(*maps[0]), 1, NormalMap::Green::across};
     return material;
 }
 

@@ -142,7 +142,7 @@ public:
         opacity(said, material);
         if (auto map = picture(said, "norm", {Encoding::Curve::linear, 1})) {
             map->scale = {1, 1, 1};
-            material.normal_map = assets_.add(*map);
+            material.normal_map = NormalMap{assets_.add(*map)};
         }
         if (auto map = number(said, "bump", false)) {
             map->scale *= said.maps.find("bump")->second.bump;

@@ -282,7 +282,8 @@ Material make_material(const std::string& type, Parameters& parameters, const Ma
     Material material = maker->second(parameters, sources);
     material.bump_map = sources.textures.maybe_number(parameters, "displacement");
     if (const std::string file = parameters.file("normalmap"); !file.empty())
-        material.normal_map = sources.textures.linear_image(file, parameters.where());
+        if (const auto map = sources.textures.linear_image(file, parameters.where()))
+            material.normal_map = NormalMap{*map, 1, NormalMap::Green::across};
     return material;
 }
 

@@ -20,6 +20,7 @@
 #include "core/scene/bsdf/hair.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/measured.hpp"
+#include "core/scene/bsdf/normal_map.hpp"
 #include "core/scene/bsdf/principled.hpp"
 
 namespace lightnet {
@@ -74,20 +75,18 @@ struct ModelsOf<std::variant<Materials...>> {
 struct Material {
     std::string name;  // as in the file; may be empty
     AnyMaterial model;
-    bool one_sided = false;                 // black from behind (opaque models only)
-    std::optional<TextureId> opacity{};     // share of the light that meets the surface at all; its red counts
-    float opacity_cutoff = 0;               // > 0: there where opacity ≥ this, else not
-    std::optional<TextureId> normal_map{};  // linear, 0.5 is 0; x along ∂p/∂u, y along ∂p/∂v, z along the normal
-    float normal_scale = 1;                 // of its x and y
-    std::optional<TextureId> bump_map{};    // height, metres, in the normal's direction; its red counts
-    Rgb absorption{};                       // per metre inside a solid (glTF's attenuation, Beer and Lambert's law)
-    Rgb absorption_in_front{};              // the same of what lies around it, where its normal points
+    bool one_sided = false;              // black from behind (opaque models only)
+    std::optional<TextureId> opacity{};  // share of the light that meets the surface at all; its red counts
+    float opacity_cutoff = 0;            // > 0: there where opacity ≥ this, else not
+    std::optional<NormalMap> normal_map{};
+    std::optional<TextureId> bump_map{};  // height, metres, in the normal's direction; its red counts
+    Rgb absorption{};                     // per metre inside a solid (glTF's attenuation, Beer and Lambert's law)
+    Rgb absorption_in_front{};            // the same of what lies around it, where its normal points
 };
 void visit_members(Is<Material> auto& material, const auto& visit) {
-    auto& [name, model, one_sided, opacity, opacity_cutoff, normal_map, normal_scale, bump_map, absorption,
-           absorption_in_front] = material;
-    visit(model, one_sided, opacity, opacity_cutoff, normal_map, normal_scale, bump_map, absorption,
-          absorption_in_front);
+    auto& [name, model, one_sided, opacity, opacity_cutoff, normal_map, bump_map, absorption, absorption_in_front] =
+        material;
+    visit(model, one_sided, opacity, opacity_cutoff, normal_map, bump_map, absorption, absorption_in_front);
 }
 
 inline Transparency transparency_of(const Material& material) {

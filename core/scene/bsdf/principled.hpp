@@ -8,6 +8,7 @@
 #include "core/scene/bsdf/facets.hpp"
 #include "core/scene/bsdf/material_inputs.hpp"
 #include "core/scene/bsdf/microfacets.hpp"
+#include "core/scene/bsdf/normal_map.hpp"
 #include "core/scene/bsdf/scattering.hpp"
 #include "core/scene/bsdf/seen.hpp"
 #include "core/scene/bsdf/thin_film.hpp"
@@ -256,12 +257,11 @@ void visit_members(Is<PrincipledTranslucence> auto& translucence, const auto& vi
 /// Where the coat's normal is another than the surface's.
 struct PrincipledCoatNormal {
     bool own = false;                // it does not follow the material's bumps
-    std::optional<TextureId> map{};  // but this normal map
-    float scale = 1;                 // of its x and y
+    std::optional<NormalMap> map{};  // but this normal map
 };
 void visit_members(Is<PrincipledCoatNormal> auto& normal, const auto& visit) {
-    auto& [own, map, scale] = normal;
-    visit(own, map, scale);
+    auto& [own, map] = normal;
+    visit(own, map);
 }
 
 /// The principled model of Burley (2012, 2015), of which glTF's metallic-roughness model with its extensions is a part.

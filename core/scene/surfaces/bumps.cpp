@@ -20,12 +20,13 @@ Vec3 kept_above(Vec3 z, Vec3 normal) {
     return flat * (std::sqrt(1 - least_cosine * least_cosine) / size) + normal * least_cosine;
 }
 
-Vec3 mapped_normal(const SceneData& data, TextureId map, float scale, const SurfacePoint& point) {
-    const Rgb colour = look_up(data.textures, map, place_of(point));
-    const float x = (2 * colour.r - 1) * scale, y = (2 * colour.g - 1) * scale;
+Vec3 mapped_normal(const SceneData& data, const NormalMap& map, const SurfacePoint& point) {
+    const Rgb colour = look_up(data.textures, map.texture, place_of(point));
+    const float x = (2 * colour.r - 1) * map.scale, y = (2 * colour.g - 1) * map.scale;
     const Frame frame = frame_along(point.shading.z, point.along_u);
     // pictures are laid either way round on a surface
-    const float hand = dot(frame.y, point.along_v) < 0 ? -1.0f : 1.0f;
+    const bool mirrored = map.green == NormalMap::Green::along_v && dot(frame.y, point.along_v) < 0;
+    const float hand = mirrored ? -1.0f : 1.0f;
     return frame.x * x + frame.y * (hand * y) + frame.z * (2 * colour.b - 1);
 }
 
@@ -63,13 +64,13 @@ Frame frame_along(Vec3 z, Vec3 tangent) {
 }
 
 Vec3 bumpy_normal(const SceneData& data, const Material& material, const SurfacePoint& point, float step) {
-    return sound_normal(material.normal_map ? mapped_normal(data, *material.normal_map, material.normal_scale, point)
+    return sound_normal(material.normal_map ? mapped_normal(data, *material.normal_map, point)
                                             : bumped_normal(data, *material.bump_map, point, step),
                         point);
 }
 
 Vec3 coat_normal(const SceneData& data, const PrincipledCoatNormal& coat, const SurfacePoint& point) {
-    return coat.map ? sound_normal(mapped_normal(data, *coat.map, coat.scale, point), point) : point.shading.z;
+    return coat.map ? sound_normal(mapped_normal(data, *coat.map, point), point) : point.shading.z;
 }
 
 float step_of(const SceneData& data, TextureId texture) {
