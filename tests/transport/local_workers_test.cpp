@@ -4,10 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
+#include <vector>
 
+#include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
 #include "tests/support/folder.hpp"
 #include "transport/start/ssh_workers.hpp"
@@ -69,6 +73,19 @@ TEST(LocalWorkers, DoWithoutThoseThatEndByThemselves) {
     EXPECT_EQ(workers.endpoints().size(), 2u);
     EXPECT_EQ(workers.missing(), 1u);
     EXPECT_EQ(stand.starts(), 3u) << "whoever has said why he ends would say it again";
+}
+
+TEST(LocalWorkers, StartAFewAtATime) {
+    const unsigned few = 4 * usable_cores();
+    // each counts those that have begun to start and not yet spoken
+    const Stand stand("d=$0.starting; mkdir -p $d; : > $d/$$; ls $d | wc -l >> $0.seen; sleep .1; rm $d/$$\n" +
+                      listens);
+    const LocalWorkers workers(stand.path, 3 * few, 1);
+    EXPECT_EQ(workers.missing(), 0u);
+    std::ifstream in(stand.path + ".seen");
+    const std::vector<unsigned> seen{std::istream_iterator<unsigned>(in), {}};
+    ASSERT_EQ(seen.size(), 3 * few);
+    EXPECT_LE(*std::max_element(seen.begin(), seen.end()), few);
 }
 
 TEST(LocalWorkers, AreToldWhereTheirCacheIs) {

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
 #include "transport/keys/key_file.hpp"
 #include "transport/start/child.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::uint32_t starts_per_core = 4;
 constexpr const char* any_port = "tcp://127.0.0.1:*";
 
 // The wait status of a process that is over, or is to be.
@@ -59,21 +61,28 @@ LocalWorkers::LocalWorkers(std::string program, std::uint32_t count, std::uint32
     }
 }
 
-// All together, as each takes a while.
+// Several together, as each takes a while, but not so many that none gets on.
 void LocalWorkers::start_all(std::uint32_t count) {
+    const std::size_t together = std::size_t{starts_per_core} * std::max(1u, usable_cores());
     std::vector<int> outs;
-    try {
-        for (std::uint32_t i = 0; i < count; ++i) {
-            int out = -1;
+    std::size_t heard = 0, started = 0;
+    const auto hear_next = [&] {
+        started += await_start(workers_[heard], outs[heard]);
+        ++heard;
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (outs.size() - heard == together) hear_next();
+        int out = -1;
+        try {
             workers_.push_back({.listens = {}, .endpoint = {}, .process = start(any_port, &out)});
-            outs.push_back(out);
+        } catch (const Error&) {  // the system gives no more processes
+            if (workers_.empty()) throw;
+            break;
         }
-    } catch (const Error&) {  // the system gives no more processes
-        if (workers_.empty()) throw;
-        workers_.resize(count);
+        outs.push_back(out);
     }
-    std::size_t started = 0;
-    for (std::size_t i = 0; i < outs.size(); ++i) started += await_start(workers_[i], outs[i]);
+    while (heard < outs.size()) hear_next();
+    workers_.resize(count);
     if (started == 0) throw Error(count == 1 ? "the local worker did not start" : "no local worker has started");
     for (auto& worker : workers_)
         if (worker.listens.empty()) worker.restarts.give_up();

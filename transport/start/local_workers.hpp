@@ -31,7 +31,7 @@ public:
     };
     /// Starts `count` daemons of `places` places each, and waits until each says where it listens. Without `keys` they
     /// ask for none. `cache`: the folder for their files; "": the usual one. Throws Error when none does: one that ends
-    /// by itself, or stays silent, is given up.
+    /// by itself, or stays silent, is given up. No more than a few for each core start at a time.
     LocalWorkers(std::string program, std::uint32_t count, std::uint32_t places,
                  std::optional<Keys> keys = std::nullopt, FaultInjection troubles = {}, std::string cache = {});
     /// SIGTERM, then, after a second, SIGKILL.

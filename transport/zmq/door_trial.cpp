@@ -12,7 +12,7 @@
 namespace lightnet {
 namespace {
 
-constexpr auto patience = std::chrono::seconds(5);
+constexpr auto patience = std::chrono::seconds(15);  // a machine that starts many at once is slow
 
 // From where it can be reached on this machine.
 std::string knocked_at(const std::string& endpoint) {
@@ -41,7 +41,9 @@ void try_door(const std::string& endpoint, const PublicKey& door, const std::fun
         poll.add(*stranger.events());
         poll.wait(std::chrono::milliseconds(1));
     }
-    throw Error(endpoint, "does not say no to a stranger's key: not used");
+    throw Error(endpoint,
+                "has not answered a stranger's key within 15 s, so whether it turns strangers away is not "
+                "known: not used (this machine may have too much to do)");
 }
 
 }  // namespace lightnet
