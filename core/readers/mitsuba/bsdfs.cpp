@@ -47,7 +47,11 @@ const std::map<std::string, Bsdfs::Maker, std::less<>>& Bsdfs::makers() {
                                                                  {"conductor", &Bsdfs::conductor},
                                                                  {"roughconductor", &Bsdfs::rough_conductor},
                                                                  {"plastic", &Bsdfs::plastic},
-                                                                 {"roughplastic", &Bsdfs::rough_plastic},
+                                                                 {"roughplastic", &Bsdfs::plastic},
+                                                                 {"pplastic", &Bsdfs::plastic},
+                                                                 {"polarizer", &Bsdfs::polarising_filter},
+                                                                 {"circular", &Bsdfs::polarising_filter},
+                                                                 {"retarder", &Bsdfs::polarising_filter},
                                                                  {"phong", &Bsdfs::phong},
                                                                  {"ward", &Bsdfs::ward},
                                                                  {"principled", &Bsdfs::principled},
@@ -238,12 +242,24 @@ CoatedDiffuseMaterial Bsdfs::coat(Properties& properties) {
     return model;
 }
 
-Material Bsdfs::plastic(Properties& properties) { return one_sided(coat(properties)); }
-
-Material Bsdfs::rough_plastic(Properties& properties) {
+Material Bsdfs::plastic(Properties& properties) {
     auto model = coat(properties);
-    model.roughness = roughness(properties, 0.1f);
+    const std::string& type = properties.node().type;
+    if (type != "plastic") model.roughness = roughness(properties, 0.1f);
+    if (type == "pplastic") context_.warn(properties.node(), "its light is not polarised");
     return one_sided(model);
+}
+
+/// Lets light straight through that is not polarised: a polariser half of it, a retarder all.
+Material Bsdfs::polarising_filter(Properties& properties) {
+    properties.ignore({"theta", "delta", "polarizing", "left_handed"});
+    context_.warn(properties.node(), "no light is polarised: it lets an even part of all through");
+    Texture kept = context_.assets.scene().textures[textures_.number(properties, "transmittance", 1.0f)];
+    if (properties.node().type != "retarder") kept.scale *= 0.5f;
+    kept.invert = true;
+    Material material{"", DiffuseMaterial{context_.assets.grey(0)}};
+    material.opacity = context_.assets.add(kept);
+    return material;
 }
 
 /// A diffuse surface under a highlight of a model that a scene has not.

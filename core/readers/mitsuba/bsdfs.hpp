@@ -38,7 +38,7 @@ private:
     Material conductor(Properties&);
     Material rough_conductor(Properties&);
     Material plastic(Properties&);
-    Material rough_plastic(Properties&);
+    Material polarising_filter(Properties&);
     Material phong(Properties&);
     Material ward(Properties&);
     Material principled(Properties&);
