@@ -16,12 +16,10 @@
 namespace lightnet::test::vdb_library_test {
 namespace {
 
-TEST(VdbOfTheLibrary, IsReadAsItWasMeant) {
-#ifndef LIGHTNET_HAS_OPENVDB
-    GTEST_SKIP() << "OpenVDB is missing: libopenvdb-dev";
-#else
-    openvdb::initialize();
-    const auto grid = openvdb::FloatGrid::create(0);
+#if defined(LIGHTNET_HAS_OPENVDB)
+template <class Grid>
+void expect_to_be_read() {
+    const auto grid = Grid::create(0);
     grid->setName("density");
     grid->setGridClass(openvdb::GRID_FOG_VOLUME);
     auto writer = grid->getAccessor();
@@ -58,6 +56,16 @@ TEST(VdbOfTheLibrary, IsReadAsItWasMeant) {
                                 << x << ' ' << y << ' ' << z << " packing " << packing << " half " << half;
                         }
             }
+}
+#endif
+
+TEST(VdbOfTheLibrary, IsReadAsItWasMeant) {
+#ifndef LIGHTNET_HAS_OPENVDB
+    GTEST_SKIP() << "OpenVDB is missing: libopenvdb-dev";
+#else
+    openvdb::initialize();
+    expect_to_be_read<openvdb::FloatGrid>();
+    expect_to_be_read<openvdb::DoubleGrid>();
 #endif
 }
 

@@ -137,12 +137,12 @@ private:
 
     void read_root() {
         if (stream_.get<std::uint32_t>() != 1) throw Error("it has more than one buffer for each leaf");
-        storage_.background = stream_.get<float>();
+        storage_.background = number(stream_, storage_);
         sparse::sound_value(storage_.background);
         const auto tiles = stream_.get<std::uint32_t>(), children = stream_.get<std::uint32_t>();
         for (std::uint32_t n = 0; n < tiles; ++n) {
             const Place origin = root_place();
-            const auto value = stream_.get<float>();
+            const float value = number(stream_, storage_);
             add_tile(origin, root_wide, value, stream_.get<std::uint8_t>() != 0);
         }
         for (std::uint32_t n = 0; n < children; ++n)
@@ -173,10 +173,15 @@ private:
 
 SparseGrid grid_in(std::span<const std::byte> bytes, const StoredGrid& stored) {
     const auto refuse = [&](const std::string& why) { throw Error("grid " + in_quotes(stored.name) + " " + why); };
-    if (stored.type != "Tree_float_5_4_3") refuse("is of type " + in_quotes(stored.type) + ", not float");
+    using Number = Storage::Number;
+    const bool twice = stored.type == "Tree_double_5_4_3";
+    if (!twice && stored.type != "Tree_float_5_4_3")
+        refuse("is of type " + in_quotes(stored.type) + ", neither float nor double");
     if (!stored.shares.empty()) refuse("has the tree of another grid: write it as one of its own");
     Stream stream(bytes, stored.at);
-    Storage storage{stream.get<std::uint32_t>(), stored.half, 0};
+    const Number alone = twice ? Number::twice : Number::single;
+    const Number halved = twice ? Number::single : Number::half;
+    Storage storage{stream.get<std::uint32_t>(), stored.half ? halved : alone, alone, 0};
     for (const auto& [name, value] : facts_in(stream))
         if (name == "class" && value != "fog volume" && value != "unknown") refuse("is not a fog volume");
     const Matrix to_world = map_in(stream);

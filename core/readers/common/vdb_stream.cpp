@@ -54,18 +54,22 @@ float number_of_half(std::uint16_t bits) {
     return bits >> 15 ? -size : size;
 }
 
-std::vector<float> stored_numbers(Stream& stream, std::uint32_t count, const Storage& storage) {
+template <class Stored>
+std::vector<float> stored_as(Stream& stream, std::uint32_t count, const Storage& storage, const auto& number_of) {
     std::vector<float> values(count);
     std::vector<std::byte> room;
-    if (!storage.half) {
-        const auto bytes = unpacked(stream, count * sizeof(float), storage.packing, room);
-        std::copy(bytes.begin(), bytes.end(), std::as_writable_bytes(std::span(values)).begin());
-        return values;
-    }
-    if (count == 0) return values;  // and nothing is stored
-    const CheckedBytes bytes(unpacked(stream, count * sizeof(std::uint16_t), storage.packing, room));
-    for (std::uint32_t i = 0; i < count; ++i) values[i] = number_of_half(bytes.get<std::uint16_t>(2 * i));
+    const CheckedBytes bytes(unpacked(stream, count * sizeof(Stored), storage.packing, room));
+    for (std::uint32_t i = 0; i < count; ++i) values[i] = number_of(bytes.get<Stored>(sizeof(Stored) * i));
     return values;
+}
+
+std::vector<float> stored_numbers(Stream& stream, std::uint32_t count, const Storage& storage) {
+    using Number = Storage::Number;
+    const auto as_float = [](auto number) { return static_cast<float>(number); };
+    if (storage.of_leaves == Number::single) return stored_as<float>(stream, count, storage, as_float);
+    if (storage.of_leaves == Number::twice) return stored_as<double>(stream, count, storage, as_float);
+    if (count == 0) return {};  // and nothing is stored
+    return stored_as<std::uint16_t>(stream, count, storage, number_of_half);
 }
 
 }  // namespace
@@ -75,12 +79,16 @@ std::string Stream::text() {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+float number(Stream& stream, const Storage& storage) {
+    return storage.alone == Storage::Number::twice ? static_cast<float>(stream.get<double>()) : stream.get<float>();
+}
+
 std::vector<float> numbers(Stream& stream, const Mask& active, std::uint32_t parts, const Storage& storage) {
     const auto how = stream.get<std::uint8_t>();
     if (how > stored) throw Error(fmt::format("an unknown way ({}) to store what is not active", how));
     std::array<float, 2> values{how == background ? storage.background : -storage.background, storage.background};
-    if (how == one_value || how == value_or_background || how == either_of_two) values[0] = stream.get<float>();
-    if (how == either_of_two) values[1] = stream.get<float>();
+    if (how == one_value || how == value_or_background || how == either_of_two) values[0] = number(stream, storage);
+    if (how == either_of_two) values[1] = number(stream, storage);
     const Mask chosen = how >= either_background && how <= either_of_two ? stream.mask(parts) : Mask();
     if (!(storage.packing & active_only) || how == stored) return stored_numbers(stream, parts, storage);
     const auto found = stored_numbers(stream, active.count(), storage);

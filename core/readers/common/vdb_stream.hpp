@@ -60,10 +60,15 @@ private:
 
 /// How a grid's numbers are stored.
 struct Storage {
-    std::uint32_t packing = 0;  // bits: see vdb_stream.cpp
-    bool half = false;
+    std::uint32_t packing = 0;                  // bits: see vdb_stream.cpp
+    enum class Number { half, single, twice };  // IEEE 754: binary16, binary32, binary64
+    Number of_leaves = Number::single;
+    Number alone = Number::single;  // of the background and of parts of one value
     float background = 0;
 };
+
+/// One that stands alone.
+float number(Stream& stream, const Storage& storage);
 
 /// The numbers of a node's parts, of which `active` says something.
 std::vector<float> numbers(Stream& stream, const Mask& active, std::uint32_t parts, const Storage& storage);

@@ -35,14 +35,13 @@ Builder::Builder(const Sources& sources, std::optional<double> seconds)
       textures_(sources_, scene_, pictures_),
       measurements_(sources_.report),
       shapes_(sources_, thread_pool_),
+      media_(sources_, scene_),
+      materials_(sources_, scene_, {"", DiffuseMaterial{textures_.constant({0.5f, 0.5f, 0.5f}), 0, std::nullopt}}),
+      waiting_(sources_, scene_, materials_, media_),
+      blocks_(sources_),
       transforms_(sources_.report),
-      seconds_(seconds),
-      media_(sources_, scene_) {
+      seconds_(seconds) {
     scene_.film.width = sources_.older() ? 640 : 1280, scene_.film.height = sources_.older() ? 480 : 720;
-    Material grey;
-    grey.model = DiffuseMaterial{textures_.constant({0.5f, 0.5f, 0.5f}), 0, std::nullopt};
-    scene_.materials.push_back(std::move(grey));
-    uses_.push_back({0, "", {}});
 }
 
 const std::map<std::string, Builder::Handler>& Builder::handlers() {
@@ -87,77 +86,60 @@ void Builder::execute(Statement& statement) {
         return sources_.report.warn(statement.where,
                                     "what stands behind the first WorldEnd is left out: nothing of it is seen");
     const Part part = part_of(statement.directive);
-    if (state_.space != ColourSpace::srgb) statement.parameters.set_colour_space(state_.space);
+    if (state().space != ColourSpace::srgb) statement.parameters.set_colour_space(state().space);
     if (part == Part::before_world && in_world_)
         sources_.report.error(statement.where, statement.directive + " must stand before WorldBegin");
     else if (part == Part::in_world && !in_world_)
         sources_.report.error(statement.where, statement.directive + " must stand behind WorldBegin");
     else if (CurrentTransform::knows(statement.directive))
-        transforms_.execute(statement, state_.to_world);
+        transforms_.execute(statement, state().to_world);
     else
         (this->*handlers().at(statement.directive))(statement);
 }
 
-void Builder::enter() { push(Block::import, {}); }
+void Builder::enter() { blocks_.begin(Blocks::Kind::import, {}); }
 
 void Builder::leave() {
-    while (!stack_.empty() && stack_.back().block != Block::import) {
-        sources_.report.error(stack_.back().where, "this block is not closed in its file");
-        if (stack_.back().block == Block::object) open_object_ = std::nullopt;
-        state_ = std::move(stack_.back().state);
-        stack_.pop_back();
-    }
-    pop(Block::import, "import", {});
+    if (blocks_.end_import()) open_object_ = std::nullopt;
 }
 
 void Builder::finish() {
-    for (const auto& open : stack_) sources_.report.error(open.where, "this block is never closed");
-    check_uses();
+    blocks_.end_file();
+    materials_.check();
     if (!in_world_) sources_.report.error({sources_.main, 0}, "there is no WorldBegin, and so no scene");
     textures_.finish();  // waits for the meshes as well
-    finish_shapes();
+    shapes_.displace(waiting_.displaced(), scene_.textures);
+    if (shapes_.budget().exceeded())
+        sources_.report.error({sources_.main, 0}, "the scene has more than 2^27 vertices and triangles");
+    waiting_.finish(around_, around_where_);
     finish_film();
     pictures_.warn_below_black(scene_);
     scene_.warnings = sources_.report.warnings();
 }
 
-Matrix Builder::to_world() { return standing(state_.to_world.transform); }
+void Builder::finish_film() {
+    scene_.film.scale *= exposure_;
+    take_scale_out(scene_.camera);
+    if (white_ == Rgb{1, 1, 1}) return;
+    // light is linear, so a white balance per channel may as well be done where the light comes from
+    const Rgb gain{1 / std::max(white_.r, 1e-3f), 1 / std::max(white_.g, 1e-3f), 1 / std::max(white_.b, 1e-3f)};
+    for (auto& shape : scene_.shapes)
+        if (shape.emission) shape.emission->radiance *= gain;
+    for (auto& environment : scene_.environments) environment.radiance *= gain;
+    for (auto& light : scene_.lights) std::visit([&](auto& one) { one.strength() *= gain; }, light);
+}
+
+Matrix Builder::to_world() { return standing(state().to_world.transform); }
 
 Matrix Builder::standing(const MovingTransform& transform) {
     if (transform.moves() && scene_.animations.empty()) scene_.animations.push_back({"", transforms_.end_seconds()});
     return transforms_.at(transform, seconds_.value_or(scene_.shutter ? scene_.shutter->open : 0));
 }
 
-void Builder::push(Block block, const SourceLine& where) {
-    constexpr std::size_t deepest = 10000;
-    if (stack_.size() == deepest) sources_.report.error(where, "blocks are nested too deeply");
-    if (stack_.size() < deepest) stack_.push_back({block, state_, where});
-}
-
-std::optional<Builder::Saved> Builder::pop(Block block, const char* what, const SourceLine& where) {
-    if (stack_.empty() || stack_.back().block != block) {
-        std::string problem = fmt::format("there is no {} to end here", what);
-        if (!stack_.empty() && stack_.back().block != Block::import)
-            problem += fmt::format(" (the latest open block begins in line {})", stack_.back().where.line);
-        sources_.report.error(where, problem);
-        return std::nullopt;
-    }
-    Saved saved = std::move(stack_.back());
-    stack_.pop_back();
-    state_ = std::move(saved.state);
-    return saved;
-}
-
-void Builder::attribute_begin(Statement& s) { push(Block::attribute, s.where); }
-void Builder::attribute_end(Statement& s) { pop(Block::attribute, "AttributeBegin", s.where); }
-void Builder::transform_begin(Statement& s) { push(Block::transform, s.where); }
-
-void Builder::transform_end(Statement& s) {
-    State current = state_;
-    if (!pop(Block::transform, "TransformBegin", s.where)) return;
-    current.to_world = state_.to_world;  // only the transform comes back
-    state_ = std::move(current);
-}
+void Builder::attribute_begin(Statement& s) { blocks_.begin(Blocks::Kind::attribute, s.where); }
+void Builder::attribute_end(Statement& s) { blocks_.end(Blocks::Kind::attribute, "AttributeBegin", s.where); }
+void Builder::transform_begin(Statement& s) { blocks_.begin(Blocks::Kind::transform, s.where); }
+void Builder::transform_end(Statement& s) { blocks_.end_transform(s.where); }
 
 void Builder::attribute(Statement& s) {
     static const std::vector<std::string> known{"light", "material", "medium", "shape", "texture"};
@@ -168,28 +150,25 @@ void Builder::attribute(Statement& s) {
                                  did_you_mean(target, known)));
         return;
     }
-    auto& defaults = state_.defaults[target];
+    auto& defaults = state().defaults[target];
     for (const auto& parameter : s.parameters.all()) {
         std::erase_if(defaults, [&](const auto& p) { return p->name == parameter->name; });
         defaults.push_back(parameter);
     }
 }
 
-void Builder::reverse_orientation(Statement&) { state_.reversed = !state_.reversed; }
+void Builder::reverse_orientation(Statement&) { state().reversed = !state().reversed; }
 
 void Builder::world_begin(Statement&) {
     in_world_ = true;
-    transforms_.begin_world(state_.to_world);
+    transforms_.begin_world(state().to_world);
 }
 
 void Builder::world_end(Statement& s) {
     if (!sources_.older())
         return sources_.report.error(s.where, "'WorldEnd' belongs to pbrt-v3; in pbrt-v4 the file simply ends");
     ended_ = true;
-    while (!stack_.empty()) {
-        sources_.report.error(stack_.back().where, "this block is never closed");
-        stack_.pop_back();
-    }
+    blocks_.end_file();
 }
 
 void Builder::older_business(Statement& s) {
@@ -218,20 +197,20 @@ void Builder::make_named_medium(Statement& s) {
 
 /// One name is that of both sides. What media a shape parts waits for its material.
 void Builder::medium_interface(Statement& s) {
-    state_.inside = s.names.empty() ? "" : s.names.front();
-    state_.outside = s.names.empty() ? "" : s.names.back();
+    state().inside = s.names.empty() ? "" : s.names.front();
+    state().outside = s.names.empty() ? "" : s.names.back();
 }
 
 void Builder::color_space(Statement& s) {
     if (const auto space = colour_space_named(s.names[0]))
-        state_.space = *space;
+        state().space = *space;
     else
         sources_.report.error(s.where, fmt::format("unknown color space '{}'{}", s.names[0],
                                                    did_you_mean(s.names[0], colour_space_names())));
 }
 
 void Builder::camera(Statement& s) {
-    const auto& [start, end] = state_.to_world.transform;
+    const auto& [start, end] = state().to_world.transform;
     const auto from_start = inverse(start), from_end = inverse(end);
     if (!from_start || !from_end) {
         sources_.report.error(s.where, "the camera's transform is singular");
@@ -245,7 +224,7 @@ void Builder::camera(Statement& s) {
     scene_.camera.to_world = standing(to_world);
     scene_.camera.where = s.where;
     scene_.camera_given = true;
-    around_ = state_.outside;
+    around_ = state().outside;
     around_where_ = s.where;
     exposure_ = shot.exposure;
     transforms_.define("camera", to_world);

@@ -15,18 +15,15 @@
 namespace lightnet::pbrt {
 
 Material Builder::material_of(const std::string& type, Parameters& parameters) {
-    parameters.inherit(state_.defaults["material"]);
-    const auto find = [&](const std::string& name) -> std::optional<MaterialId> {
-        const auto found = named_.find(name);
-        return found == named_.end() ? std::nullopt : uses_[found->second].made;
-    };
+    parameters.inherit(state().defaults["material"]);
+    const auto find = [&](const std::string& name) { return materials_.made(name); };
     const auto measured = [&](const std::string& name, const SourceLine& where) {
         const std::string path = sources_.path(name);
         return measurements_.get(path, where, [&] { return sources_.files.read(path); });
     };
     // whoever asked puts it at the end of the scene's
     const auto fill = [&](Medium medium) {
-        fillings_[static_cast<MaterialId>(scene_.materials.size())] = media_.add(std::move(medium));
+        waiting_.fill(static_cast<MaterialId>(scene_.materials.size()), media_.add(std::move(medium)));
     };
     Material material;
     if (sources_.older()) {
@@ -43,54 +40,44 @@ Material Builder::material_of(const std::string& type, Parameters& parameters) {
 }
 
 void Builder::material(Statement& s) {
-    scene_.materials.push_back(material_of(s.names[0], s.parameters));
-    state_.material = uses_.size();
-    uses_.push_back({static_cast<MaterialId>(scene_.materials.size() - 1), "", s.where});
-}
-
-std::size_t Builder::use_of(const std::string& name, const SourceLine& where) {
-    const auto [place, fresh] = named_.try_emplace(name, uses_.size());
-    if (fresh) uses_.push_back({std::nullopt, name, where});
-    return place->second;
+    state().material = materials_.use(material_of(s.names[0], s.parameters), s.where);
 }
 
 void Builder::make_named_material(Statement& s) {
     const std::string& name = s.names[0];
     const std::string type = s.parameters.text("type", "");
-    if (const auto known = named_.find(name); sources_.older() && known != named_.end() && uses_[known->second].made) {
+    if (sources_.older() && materials_.made(name)) {
         s.parameters.warn("a material of that name is there already: from here on this one is meant");
-        named_.erase(known);
+        materials_.forget(name);
     }
-    const std::size_t use = use_of(name, s.where);
+    const std::size_t use = materials_.use(name, s.where);
     if (!s.parameters.find("type")) {
         s.parameters.error("parameter 'type' is missing");
-        uses_[use].made = 0;
-        return;
+        return materials_.give_up(use);
     }
     Material material = material_of(type, s.parameters);
-    if (uses_[use].made) s.parameters.error("a material of that name is there already");
+    if (materials_.made(use)) s.parameters.error("a material of that name is there already");
     material.name = name;
-    scene_.materials.push_back(std::move(material));
-    uses_[use].made = static_cast<MaterialId>(scene_.materials.size() - 1);
+    materials_.make(use, std::move(material));
 }
 
 // pbrt looks names up at the end, so a material may be named before it is made
-void Builder::named_material(Statement& s) { state_.material = use_of(s.names[0], s.where); }
+void Builder::named_material(Statement& s) { state().material = materials_.use(s.names[0], s.where); }
 
 void Builder::texture(Statement& s) {
-    s.parameters.inherit(state_.defaults["texture"]);
+    s.parameters.inherit(state().defaults["texture"]);
     textures_.define(s.names[0], s.names[1], s.names[2], to_world(), s.parameters);
     s.parameters.warn_unused();
 }
 
 void Builder::area_light(Statement& s) {
-    s.parameters.inherit(state_.defaults["light"]);
-    state_.lamp = make_area_light(s.names[0], s.parameters, textures_, sources_);
+    s.parameters.inherit(state().defaults["light"]);
+    state().lamp = make_area_light(s.names[0], s.parameters, textures_, sources_);
     s.parameters.warn_unused();
 }
 
 void Builder::light(Statement& s) {
-    s.parameters.inherit(state_.defaults["light"]);
+    s.parameters.inherit(state().defaults["light"]);
     const bool everywhere = s.names[0] == "infinite" && !s.parameters.find("filename") && !s.parameters.find("mapname");
     const Matrix placed = to_world();
     if (!everywhere && !inverse(placed))
@@ -102,39 +89,35 @@ void Builder::light(Statement& s) {
 }
 
 void Builder::shape(Statement& s) {
-    s.parameters.inherit(state_.defaults["shape"]);
+    s.parameters.inherit(state().defaults["shape"]);
     const Matrix placed = to_world();
     const auto from_world = inverse(placed);
     if (!from_world) return s.parameters.warn("it stands under a singular transform, and is left out");
     WaitingShape shape;
     shape.alpha = alpha_of(s.parameters);
+    const auto everywhere = shape.alpha ? textures_.constant_value(*shape.alpha) : std::nullopt;
+    shape.nowhere = everywhere && everywhere->r <= 0;
     if (sources_.older() && s.parameters.find("shadowalpha"))
         s.parameters.warn("'shadowalpha' is left out: the shape throws the whole shadow of what is there");
-    const Placement placement{placed, *from_world, state_.reversed};
+    const Placement placement{placed, *from_world, state().reversed};
     const auto heights = s.names[0] == "plymesh" ? textures_.maybe_number(s.parameters, "displacement") : std::nullopt;
     shape.made = shapes_.make(s.names[0], s.parameters, placement, heights);
     shape.turned = placement.flips();
     s.parameters.warn_unused();
     if (!shape.made) return;
-    if (state_.lamp && open_object_)
+    if (state().lamp && open_object_)
         s.parameters.warn("lamps inside of an object don't shine (as in pbrt)");
     else
-        shape.lamp = state_.lamp;
+        shape.lamp = state().lamp;
     shape.lamp_per_triangle = s.names[0] == "trianglemesh" || s.names[0] == "plymesh";
-    shape.material = state_.material;
-    shape.inside = state_.inside;
-    shape.outside = state_.outside;
+    shape.material = state().material;
+    shape.inside = state().inside;
+    shape.outside = state().outside;
     shape.object = open_object_;
     shape.owner = s.parameters.owner();
     shape.name = stem_of(s.names[0] == "plymesh" ? s.parameters.file("filename") : "");
     shape.where = s.where;
-    waiting_.push_back(std::move(shape));
-}
-
-/// Is nothing of it there? pbrt lets a lamp shine all the same.
-bool Builder::is_nowhere(TextureId alpha) const {
-    const auto everywhere = textures_.constant_value(alpha);
-    return everywhere && everywhere->r <= 0;
+    waiting_.add(std::move(shape));
 }
 
 /// None: opaque.
@@ -149,7 +132,7 @@ void Builder::object_begin(Statement& s) {
         sources_.report.error(s.where, "ObjectBegin inside of another object");
         return;
     }
-    push(Block::object, s.where);
+    blocks_.begin(Blocks::Kind::object, s.where);
     const auto [place, fresh] = objects_.try_emplace(s.names[0], static_cast<std::uint32_t>(scene_.objects.size()));
     if (fresh)
         scene_.objects.push_back({s.names[0], {}});
@@ -159,7 +142,7 @@ void Builder::object_begin(Statement& s) {
 }
 
 void Builder::object_end(Statement& s) {
-    if (pop(Block::object, "ObjectBegin", s.where)) open_object_ = std::nullopt;
+    if (blocks_.end(Blocks::Kind::object, "ObjectBegin", s.where)) open_object_ = std::nullopt;
 }
 
 void Builder::object_instance(Statement& s) {

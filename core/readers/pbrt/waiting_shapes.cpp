@@ -1,11 +1,11 @@
-// The end of the Builder's work: what was promised comes together as a scene.
+#include "core/readers/pbrt/waiting_shapes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "core/base/suggestion.hpp"
-#include "core/readers/pbrt/builder.hpp"
 
 namespace lightnet::pbrt {
 namespace {
@@ -26,40 +26,31 @@ Mesh single(const Mesh& mesh, std::size_t triangle) {
 
 }  // namespace
 
-void Builder::check_uses() {
-    std::vector<std::string> known;
-    for (const auto& [name, use] : named_)
-        if (uses_[use].made) known.push_back(name);
-    for (auto& use : uses_) {
-        if (use.made || sources_.report.full()) continue;
-        sources_.report.error(use.first_use,
-                              fmt::format("there is no material '{}'{}", use.name, did_you_mean(use.name, known)));
-    }
-}
-
-void Builder::finish_shapes() {
+std::vector<MadeShape*> WaitingShapes::displaced() const {
     std::vector<MadeShape*> displaced;
     for (const auto& waiting : waiting_)
         if (waiting.made->relief && waiting.made->geometry) displaced.push_back(waiting.made.get());
-    shapes_.displace(displaced, scene_.textures);
-    if (shapes_.budget().exceeded())
-        sources_.report.error({sources_.main, 0}, "the scene has more than 2^27 vertices and triangles");
-    find_media();
+    return displaced;
+}
+
+void WaitingShapes::finish(const std::string& around, const SourceLine& where) {
+    find_media(around, where);
     for (auto& waiting : waiting_) {
         if (sources_.report.full()) return;
-        finish_shape(waiting);
+        finish(waiting);
         waiting.made.reset();
     }
     waiting_.clear();
 }
 
-void Builder::finish_shape(WaitingShape& waiting) {
+void WaitingShapes::finish(WaitingShape& waiting) {
     MadeShape& made = *waiting.made;
     if (!made.problem.empty()) sources_.report.error(waiting.where, waiting.owner + ": " + made.problem);
-    if (!made.geometry || !uses_[waiting.material].made) return;
+    const auto used = materials_.made(waiting.material);
+    if (!made.geometry || !used) return;
     if (pieces_of(*made.geometry) == 0)
         return sources_.report.warn(waiting.where, "a shape without any triangle is left out");
-    const MaterialId material = filled(*uses_[waiting.material].made, waiting);
+    const MaterialId material = filled(*used, waiting);
     if (std::holds_alternative<NoMaterial>(scene_.materials[material].model)) {
         if (waiting.lamp)
             sources_.report.warn(waiting.where, "a lamp with the material 'interface' doesn't shine (as in pbrt)");
@@ -80,21 +71,21 @@ void Builder::finish_shape(WaitingShape& waiting) {
         add_shape(std::move(shape), waiting.object);
 }
 
-void Builder::check_medium(const std::string& name, const SourceLine& where) {
+void WaitingShapes::check_medium(const std::string& name, const SourceLine& where) {
     if (!name.empty() && !media_.has(name))
         sources_.report.error(where,
                               fmt::format("there is no medium '{}'{}", name, did_you_mean(name, media_.names())));
 }
 
 /// Before shapes are finished: in which media somebody stands, and which are bounded by nothing but themselves.
-void Builder::find_media() {
-    check_medium(around_, around_where_);
-    media_.be_space(around_);
-    scene_.around = media_.index(around_);
+void WaitingShapes::find_media(const std::string& around, const SourceLine& where) {
+    check_medium(around, where);
+    media_.be_space(around);
+    scene_.around = media_.index(around);
     for (const WaitingShape& waiting : waiting_) {
         check_medium(waiting.inside, waiting.where);
         check_medium(waiting.outside, waiting.where);
-        const auto& material = uses_[waiting.material].made;
+        const auto material = materials_.made(waiting.material);
         if (!material || !std::holds_alternative<NoMaterial>(scene_.materials[*material].model)) continue;
         media_.be_space(waiting.inside);
         media_.be_space(waiting.outside);
@@ -102,7 +93,7 @@ void Builder::find_media() {
 }
 
 /// Of a mixture, that of the first part that has one.
-std::uint16_t Builder::filling_of(MaterialId material) const {
+std::uint16_t WaitingShapes::filling_of(MaterialId material) const {
     const auto found = fillings_.find(material);
     if (found != fillings_.end()) return found->second;
     const auto* mixture = std::get_if<MixtureMaterial>(&scene_.materials[material].model);
@@ -111,16 +102,16 @@ std::uint16_t Builder::filling_of(MaterialId material) const {
     return first != Query::no_medium ? first : filling_of(mixture->second);
 }
 
-std::optional<MediumSides> Builder::sides_of(const WaitingShape& waiting) const {
+std::optional<MediumSides> WaitingShapes::sides_of(const WaitingShape& waiting) const {
     MediumSides sides{media_.index(waiting.inside), media_.index(waiting.outside)};
-    const std::uint16_t filling = filling_of(*uses_[waiting.material].made);
+    const std::uint16_t filling = filling_of(*materials_.made(waiting.material));
     if (filling != Query::no_medium) sides.inside = filling;
     return sides.inside == sides.outside ? std::nullopt : std::optional(sides);
 }
 
 /// A copy of solid glass between media of which one absorbs, or both. As in pbrt the outside is where the normal
 /// points, which may be the hollow of the shape. Elsewhere there is no medium for light.
-MaterialId Builder::filled(MaterialId material, const WaitingShape& waiting) {
+MaterialId WaitingShapes::filled(MaterialId material, const WaitingShape& waiting) {
     const Rgb inside = media_.absorbed_in(waiting.inside), outside = media_.absorbed_in(waiting.outside);
     const Transparency lets_through = transparency_of(scene_.materials[material]);
     if (lets_through == Transparency::opaque || (is_black(inside) && is_black(outside))) return material;
@@ -151,7 +142,7 @@ MaterialId Builder::filled(MaterialId material, const WaitingShape& waiting) {
 }
 
 /// A copy of the material that is only there as far as `alpha` says.
-MaterialId Builder::with_alpha(MaterialId material, TextureId alpha) {
+MaterialId WaitingShapes::with_alpha(MaterialId material, TextureId alpha) {
     const auto [place, fresh] = with_alpha_.try_emplace({material, alpha});
     if (fresh) {
         place->second = static_cast<MaterialId>(scene_.materials.size());
@@ -163,10 +154,10 @@ MaterialId Builder::with_alpha(MaterialId material, TextureId alpha) {
 }
 
 /// For pbrt every triangle of a mesh may be a lamp of its own, with the power that was asked for.
-void Builder::emit(Shape shape, const WaitingShape& waiting) {
+void WaitingShapes::emit(Shape shape, const WaitingShape& waiting) {
     constexpr std::size_t most_lamps = 1 << 16;
     AreaLight lamp = *waiting.lamp;
-    lamp.emission.unseen = waiting.alpha && is_nowhere(*waiting.alpha);
+    lamp.emission.unseen = waiting.nowhere;
     const bool each_triangle = waiting.lamp_per_triangle;
     const auto* mesh = std::get_if<Mesh>(&shape.geometry);
     const double area = area_of(shape.geometry);
@@ -186,7 +177,7 @@ void Builder::emit(Shape shape, const WaitingShape& waiting) {
     }
 }
 
-void Builder::add_shape(Shape shape, const std::optional<std::uint32_t>& object) {
+void WaitingShapes::add_shape(Shape shape, const std::optional<std::uint32_t>& object) {
     if (joined_ == object && add_to_curves(shape)) return;
     joined_ = object;
     if (object) scene_.objects[*object].shapes.push_back(static_cast<std::uint32_t>(scene_.shapes.size()));
@@ -194,7 +185,7 @@ void Builder::add_shape(Shape shape, const std::optional<std::uint32_t>& object)
 }
 
 /// Files have a statement for each hair. Those that follow each other and are alike become one shape.
-bool Builder::add_to_curves(const Shape& shape) {
+bool WaitingShapes::add_to_curves(const Shape& shape) {
     const auto* more = std::get_if<Curves>(&shape.geometry);
     if (!more || shape.emission || scene_.shapes.empty()) return false;
     Shape& last = scene_.shapes.back();
@@ -204,18 +195,6 @@ bool Builder::add_to_curves(const Shape& shape) {
                        sides(last).inside == sides(shape).inside && sides(last).outside == sides(shape).outside;
     if (alike) curves->append(*more);
     return alike;
-}
-
-void Builder::finish_film() {
-    scene_.film.scale *= exposure_;
-    take_scale_out(scene_.camera);
-    if (white_ == Rgb{1, 1, 1}) return;
-    // light is linear, so a white balance per channel may as well be done where the light comes from
-    const Rgb gain{1 / std::max(white_.r, 1e-3f), 1 / std::max(white_.g, 1e-3f), 1 / std::max(white_.b, 1e-3f)};
-    for (auto& shape : scene_.shapes)
-        if (shape.emission) shape.emission->radiance *= gain;
-    for (auto& environment : scene_.environments) environment.radiance *= gain;
-    for (auto& light : scene_.lights) std::visit([&](auto& one) { one.strength() *= gain; }, light);
 }
 
 }  // namespace lightnet::pbrt
