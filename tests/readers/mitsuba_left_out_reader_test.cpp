@@ -225,7 +225,7 @@ TEST(MitsubaMedia, OfUnknownTypesAreNamed) {
 
 // Whole plugins that are not supported go by their names.
 TEST(MitsubaPlugins, ThatAreNotSupportedAreNamed) {
-    for (const std::string type : {"measured_polarized", "pplastic", "polarizer", "hk", "irawan", "sssbrdf"})
+    for (const std::string type : {"measured_polarized", "hk", "irawan", "sssbrdf"})
         EXPECT_THAT(warnings_of(read("<shape type='sphere'><bsdf type='" + type + "'/></shape>")),
                     HasSubstr("bsdf '" + type + "' is not supported"));
     for (const std::string type : {"hair", "deformable"})

@@ -270,21 +270,6 @@ TEST(MitsubaMaps, AreKeptWithTheInnerBsdf) {
     EXPECT_TRUE(std::holds_alternative<NoMaterial>(material_of(read_mitsuba_bsdf("<bsdf type='null'/>")).model));
 }
 
-TEST(MitsubaPolarisation, IsLeftOutAndNamed) {
-    const auto opacity = [](const std::string& type, const std::string& more = "") {
-        const auto scene = read_mitsuba_bsdf("<bsdf type='" + type + "'>" + more + "</bsdf>");
-        EXPECT_THAT(warnings_of(scene), HasSubstr("no light is polarised"));
-        return look_up(scene.textures, material_of(scene).opacity.value(), {{0.5f, 0.5f}}).r;
-    };
-    EXPECT_EQ(opacity("polarizer", "<float name='theta' value='30'/>"), 0.5f);
-    EXPECT_EQ(opacity("circular"), 0.5f);
-    EXPECT_EQ(opacity("retarder", "<float name='delta' value='90'/>"), 0);
-    EXPECT_EQ(opacity("polarizer", "<float name='transmittance' value='.5'/>"), 0.75f);
-    const auto plastic = read_mitsuba_bsdf("<bsdf type='pplastic'><float name='alpha' value='.3'/></bsdf>");
-    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(plastic).roughness.u, 0.3f);
-    EXPECT_THAT(warnings_of(plastic), HasSubstr("its light is not polarised"));
-}
-
 TEST(MitsubaCoating, IsOverMetalsAndDiffuseSurfaces) {
     const auto metal = read_mitsuba_bsdf("<bsdf type='coating'><bsdf type='conductor'/></bsdf>");
     EXPECT_NEAR(model_of<CoatedConductorMaterial>(metal).coat_eta, 1.5046f / 1.000277f, 1e-5f);

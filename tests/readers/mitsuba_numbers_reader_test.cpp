@@ -92,5 +92,20 @@ TEST(MitsubaConductor, HasItsTexturesOfIndicesInsideOfAnother) {
     EXPECT_NEAR(colour_of(scene, metal.k).r, 2, 1e-5f);
 }
 
+TEST(MitsubaPolarisation, IsLeftOutAndNamed) {
+    const auto opacity = [](const std::string& type, const std::string& more = "") {
+        const auto scene = read_mitsuba_bsdf("<bsdf type='" + type + "'>" + more + "</bsdf>");
+        EXPECT_THAT(warnings_of(scene), testing::HasSubstr("no light is polarised"));
+        return look_up(scene.textures, material_of(scene).opacity.value(), {{0.5f, 0.5f}}).r;
+    };
+    EXPECT_EQ(opacity("polarizer", "<float name='theta' value='30'/>"), 0.5f);
+    EXPECT_EQ(opacity("circular"), 0.5f);
+    EXPECT_EQ(opacity("retarder", "<float name='delta' value='90'/>"), 0);
+    EXPECT_EQ(opacity("polarizer", "<float name='transmittance' value='.5'/>"), 0.75f);
+    const auto plastic = read_mitsuba_bsdf("<bsdf type='pplastic'><float name='alpha' value='.3'/></bsdf>");
+    EXPECT_EQ(model_of<CoatedDiffuseMaterial>(plastic).roughness.u, 0.3f);
+    EXPECT_THAT(warnings_of(plastic), testing::HasSubstr("its light is not polarised"));
+}
+
 }  // namespace
 }  // namespace lightnet::test::mitsuba_numbers_reader_test
