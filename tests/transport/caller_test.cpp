@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zmq.h>
 
 #include "core/base/error.hpp"
 #include "tests/support/fake_names.hpp"
@@ -60,6 +61,18 @@ protected:
     std::shared_ptr<test::FakeNames> names = std::make_shared<test::FakeNames>();
     const SocketContext context{1, names};
 };
+
+TEST(HandshakeWatch, TellsWhoSaysNothingFromWhoHangsUp) {
+    HandshakeWatch watch;
+    const Clock::time_point start{};
+    const SocketEvent connected{ZMQ_EVENT_CONNECTED}, failed{ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL};
+    EXPECT_EQ(watch.see(failed, start), Handshake::abandoned);
+    EXPECT_EQ(watch.see(connected, start), std::nullopt);
+    EXPECT_EQ(watch.see(failed, start + 300ms), Handshake::abandoned);
+    EXPECT_EQ(watch.see(connected, start + 1s), std::nullopt);
+    EXPECT_EQ(watch.see(failed, start + 1s + handshake_patience), Handshake::unanswered);
+    EXPECT_EQ(watch.see({ZMQ_EVENT_HANDSHAKE_FAILED_AUTH}, start + 9s), Handshake::refused);
+}
 
 TEST_F(CallerTest, TriesAllAddressesOfAName) {
     auto door = open("tcp://127.0.0.3:*");

@@ -174,6 +174,14 @@ TEST_F(RemoteHostTest, TakesAHostThatHangsUpForOneThatMayHaveAKeyOnlyWhereItExpe
     EXPECT_THAT(link->reason(), HasSubstr("another key than expected"));
 }
 
+TEST_F(RemoteHostTest, SpeaksOfNoKeysWhereAHostIsTooBusyToSayAWord) {
+    line->line_keys = LineKeys{KeyPair::random(), KeyPair::random().open};
+    for (int i = 0; i < 5; ++i) fail_handshakes(Handshake::unanswered);
+    EXPECT_FALSE(link->unknown());
+    EXPECT_EQ(link->state(), State::calling);
+    EXPECT_THAT(link->reason(), Not(HasSubstr("key")));
+}
+
 // Its cable was pulled.
 TEST_F(RemoteHostTest, SpeaksOfNoKeysWhereAHostHasTakenPart) {
     for (const bool keyed : {false, true}) {

@@ -104,8 +104,8 @@ std::vector<Asked> ask_together(const std::vector<AskedHost>& hosts, std::chrono
 HostAnswer no_answer(const AskedHost& host, const HostLine& line, std::optional<Handshake> seen, int abandoned) {
     HostAnswer answer{host.endpoint, false, host.endpoint, "does not answer", {}, {}, {}};
     answer.answers = false;
-    const bool by_keys =
-        seen && *seen != Handshake::made && (*seen != Handshake::abandoned || abandoned >= abandoned_tells_of_keys);
+    const bool by_keys = seen && *seen != Handshake::made && *seen != Handshake::unanswered &&
+                         (*seen != Handshake::abandoned || abandoned >= abandoned_tells_of_keys);
     if (by_keys) {
         const auto trouble = key_trouble(host.endpoint, host.keys, *seen);
         answer.unknown = host.keys || *seen != Handshake::abandoned;

@@ -62,7 +62,7 @@ void RemoteHost::look_at_handshake(Time now) {
     if (!seen) return;
     abandoned_ = *seen == Handshake::abandoned ? abandoned_ + 1 : 0;
     if (*seen == Handshake::made) unknown_ = false;
-    if (*seen == Handshake::made || state_ != State::calling) return;
+    if (*seen == Handshake::made || *seen == Handshake::unanswered || state_ != State::calling) return;
     if (*seen == Handshake::abandoned && abandoned_ < abandoned_for_sure) return;
     // One that is closed on us by whom we expect by his key is what a wrong key looks like.
     unknown_ = *seen != Handshake::abandoned || (connection_->keys() && !welcomed_);

@@ -25,7 +25,8 @@ enum class Handshake {
     made,        // they know each other
     refused,     // the other end doesn't take our key
     mismatched,  // one end speaks with keys, the other without; after this and after `refused` no more is tried
-    abandoned    // by the other end, which may be mismatched, have another key, or be cut off
+    abandoned,   // by the other end, which may be mismatched, have another key, or be cut off
+    unanswered   // the other end was reached, and said nothing in time: it is stopped, cut off, or has too much to do
 };
 /// Does anybody want to know?
 enum class Handshakes { noted, ignored };

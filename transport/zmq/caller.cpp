@@ -40,6 +40,7 @@ Caller::Caller(const SocketContext& context, std::string endpoint, std::optional
 void Caller::call(const IpAddress& address) {
     socket_.reset();  // first: there may be no descriptors for both
     called_.reset();
+    handshakes_ = {};
     const TcpEndpoint there{address.text(), parts_.port};
     auto socket = unconnected_asking_socket(*context_, there.text(), keys_);
     // An attempt that is closed has failed; of what was connected it is told otherwise. To note them costs descriptors.
@@ -54,7 +55,7 @@ void Caller::look_at_events(Time now) {
     while (const auto event = socket_ ? socket_->next_event() : std::nullopt) {
         if (event->number == ZMQ_EVENT_CLOSED) turns_.refused();
         if (event->number == ZMQ_EVENT_DISCONNECTED) turns_.cut(now);
-        const auto seen = handshake_in(*event);
+        const auto seen = handshakes_.see(*event, now);
         if (!seen) continue;
         const bool made = *seen == Handshake::made;
         // Behind another address may be who is meant.

@@ -53,6 +53,7 @@ private:
     AddressTurns turns_;
     Whereabout known_;
     std::vector<IpAddress> heard_;
+    HandshakeWatch handshakes_;
     std::optional<Handshake> handshake_;
     Time next_look_{};
 };

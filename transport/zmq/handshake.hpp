@@ -1,6 +1,7 @@
 // The outcome of handshakes of a socket: ZeroMQ itself says nothing to who waits for an answer.
 #pragma once
 
+#include <chrono>
 #include <optional>
 
 #include "transport/zmq/socket.hpp"
@@ -13,6 +14,16 @@ void note_handshakes(const SocketContext& context, Socket& socket);
 std::optional<Handshake> last_handshake(Socket& socket);
 /// How the one ended of which an event tells; none: it tells of something else.
 std::optional<Handshake> handshake_in(const SocketEvent& event);
+/// Tells who says nothing from who hangs up. Of one socket that connects.
+class HandshakeWatch {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+    /// As handshake_in().
+    std::optional<Handshake> see(const SocketEvent& event, Time now);
+
+private:
+    std::optional<Time> begun_;
+};
 /// The events of which it is told.
 int handshake_events();
 

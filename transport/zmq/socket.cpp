@@ -32,7 +32,7 @@ constexpr int most_sockets = 65535;            // that it can have
 
 // Who is silent is noticed before by those who talk to him, as they know what is under way; this is for connections
 // that nobody looks after, and a line may be busy for a while.
-constexpr int heartbeat_ms = 500, heartbeat_timeout_ms = 3000, time_to_live_ms = 5000, handshake_ms = 4000;
+constexpr int heartbeat_ms = 500, heartbeat_timeout_ms = 3000, time_to_live_ms = 5000;
 
 namespace option = zmq::sockopt;
 
@@ -53,7 +53,7 @@ void common_options(Socket& socket) {
     set(socket, option::sndhwm, high_water_mark);
     set(socket, option::rcvhwm, high_water_mark);
     set(socket, option::maxmsgsize, static_cast<std::int64_t>(packet::most_bytes));
-    set(socket, option::handshake_ivl, handshake_ms);
+    set(socket, option::handshake_ivl, static_cast<int>(handshake_patience.count()));
 }
 
 void heartbeat_options(Socket& socket) {

@@ -1,6 +1,7 @@
 // Sockets as this project uses them: with the options that make them safe, and nothing else of the library.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -46,6 +47,9 @@ private:
     std::unique_ptr<Resolver> names_;
     std::unique_ptr<zmq::context_t> context_;
 };
+
+/// For the other end of a connection to say who it is.
+inline constexpr std::chrono::milliseconds handshake_patience{4000};
 
 /// What happened to a connection: a number of the library (ZMQ_EVENT_…) and a value.
 struct SocketEvent {
