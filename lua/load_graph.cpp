@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/in_quotes.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/frames_beside.hpp"
 #include "core/network/graph/json.hpp"
@@ -72,7 +73,7 @@ Answer run_script(const std::string& file, const Text& text_of, const LuaOptions
     } catch (const std::bad_alloc&) {
         throw;  // there may be no room to say it
     } catch (const std::exception& error) {
-        answer.problems = {{{file, 0}, error.what()}};
+        answer.problems = {{{file, 0}, words_of(error)}};
     }
     return answer;
 }

@@ -241,6 +241,8 @@ int Sandbox::require(lua_State* L) {
     const char* name = luaL_checkstring(L, 1);
     try {
         return of(L).require(L, name);
+    } catch (const std::bad_alloc&) {
+        return luaL_error(L, "not enough memory");
     } catch (const std::exception& error) {
         lua_pushfstring(L, "require \"%s\": %s", name, error.what());
     }

@@ -7,6 +7,7 @@
 
 #include "core/base/json.hpp"
 #include "core/base/json_tree.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/graph/json.hpp"
 #include "core/network/graph/value.hpp"
 #include "lua/child.hpp"
@@ -99,7 +100,7 @@ std::string evaluate_settings(const std::string& file) {
     } catch (const UserError& error) {
         taken.problems = error.problems();
     } catch (const std::exception& error) {
-        taken.problems = {{{file, 0}, error.what()}};
+        taken.problems = {{{file, 0}, words_of(error)}};
     }
     auto lines = JsonTree::list();
     for (const auto& line : taken.lines) lines.push_back({line.verb, line.name, line.value, line.where.line});

@@ -13,6 +13,7 @@
 #include "core/base/json_tree.hpp"
 #include "core/base/plain_file.hpp"
 #include "core/base/printable.hpp"
+#include "core/base/words_of.hpp"
 
 namespace lightnet {
 namespace {
@@ -178,7 +179,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path) {
     } catch (const std::bad_alloc&) {
         throw Error(path.string(), "there is not enough memory for its film");
     } catch (const std::exception& error) {
-        throw Error(path.string(), error.what());
+        throw Error(path.string(), words_of(error));
     }
 }
 

@@ -26,6 +26,7 @@
 #include "core/base/exr_claims.hpp"
 #include "core/base/own_files.hpp"
 #include "core/base/plain_file.hpp"
+#include "core/base/words_of.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/exr_channels.hpp"
 
@@ -280,7 +281,7 @@ Picture read_exr(const std::filesystem::path& path) try {
 } catch (const std::bad_alloc&) {
     throw Error(path.string(), "there is not enough memory for its pixels");
 } catch (const std::exception& wrong) {
-    throw Error(path.string(), wrong.what());
+    throw Error(path.string(), words_of(wrong));
 }
 
 }  // namespace lightnet

@@ -69,6 +69,10 @@ TEST(Project, ReadsFilesThatOthersMayHaveMadeByOneReader) {
     EXPECT_THAT(all_complaints(product(), streams_of_files), IsEmpty());
 }
 
+TEST(Project, TellsExceptionsInWordsForPeople) {
+    EXPECT_THAT(all_complaints(product(), words_of_the_library), IsEmpty());
+}
+
 TEST(Project, HasCommentsWithASubjectOfTheirOwn) {
     EXPECT_THAT(all_complaints(product(), borrowed_subjects), IsEmpty());
 }

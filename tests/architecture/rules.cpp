@@ -210,6 +210,32 @@ Complaints streams_of_files(const SourceFile& file) {
     return complaints;
 }
 
+Complaints words_of_the_library(const SourceFile& file) {
+    static const std::regex begins(R"(catch \(const std::exception& (\w+)\))");
+    Complaints complaints;
+    if (file.path == "core/base/words_of.cpp") return complaints;
+    const auto lines = lines_of(code_only(file.text));
+    std::string caught;  // what is named in the clause that is open
+    std::size_t indent = 0;
+    bool memory_apart = false;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const std::string& line = lines[i];
+        std::smatch match;
+        if (line.find("catch (const std::bad_alloc&)") != std::string::npos) memory_apart = true;
+        if (line.find("try {") != std::string::npos) memory_apart = false;
+        if (std::regex_search(line, match, begins)) {
+            caught = match[1], indent = line.find_first_not_of(' ');
+            continue;
+        }
+        if (caught.empty()) continue;
+        if (line.find(caught + ".what()") != std::string::npos && !memory_apart)
+            complaints.push_back(at_line(file, i + 1, caught + ".what(): words_of(" + caught + ") is for people"));
+        const auto first = line.find_first_not_of(' ');
+        if (first != std::string::npos && first <= indent && line[first] == '}') caught.clear();
+    }
+    return complaints;
+}
+
 Complaints bad_header(const SourceFile& file) {
     Complaints complaints;
     if (!ends_with(file.path, ".hpp")) return complaints;

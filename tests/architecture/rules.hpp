@@ -31,6 +31,9 @@ Complaints words_of_distribution(const SourceFile& file);
 /// their place, is read by PlainFile, which never waits and knows how much it takes, and written by write_file().
 Complaints streams_of_files(const SourceFile& file);
 
+/// Words that people get of exceptions of any kind, and that may be names of the library's: words_of() has better ones.
+Complaints words_of_the_library(const SourceFile& file);
+
 /// A header without #pragma once, or with a `using namespace`.
 Complaints bad_header(const SourceFile& file);
 

@@ -118,6 +118,18 @@ TEST(Nodes, MaySpeakOfAnythingInWords) {
                 IsEmpty());
 }
 
+TEST(Exceptions, OfAnyKindAreToldInWordsForPeople) {
+    const std::string clause = "    } catch (const std::exception& e) {\n        say(e.what());\n    }\n";
+    EXPECT_THAT(words_of_the_library({"tools/x.cpp", "    try {\n        work();\n" + clause}), SizeIs(1));
+    EXPECT_THAT(words_of_the_library(
+                    {"lua/x.cpp", "    try {\n    } catch (const std::bad_alloc&) {\n        none();\n" + clause}),
+                IsEmpty());
+    EXPECT_THAT(words_of_the_library({"tools/x.cpp",
+                                      "    } catch (const std::exception& e) {\n        say(words_of(e));\n    }\n"
+                                      "    } catch (const Error& e) {\n        say(e.what());\n    }\n"}),
+                IsEmpty());
+}
+
 TEST(Files, AreReadByOneReader) {
     for (const char* code : {"#include <fstream>\n", "std::ifstream in(path);\n", "std::ofstream out(path);\n",
                              "FILE* file = fopen(path, \"r\");\n", "std::basic_ifstream<char> in;\n"})

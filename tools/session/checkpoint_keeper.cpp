@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/spare_threads.hpp"
+#include "core/base/words_of.hpp"
 
 namespace lightnet {
 
@@ -73,7 +74,7 @@ std::string CheckpointKeeper::save_if_due(std::uint64_t blocks) {
             // Saving takes at most a small part of the time.
             pace_.put_off(now, 20 * std::chrono::duration<double>(seconds_per_byte_ * bytes_in(last_.film)));
         } catch (const std::exception& error) {
-            complaint = error.what();
+            complaint = words_of(error);
         }
     }
     saved_ = blocks;

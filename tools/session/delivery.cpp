@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "core/base/words_of.hpp"
 #include "tools/support/exit_code.hpp"
 
 namespace lightnet {
@@ -27,7 +28,7 @@ std::string attempt(const Delivery& delivery, const std::string& picture) {
     } catch (const std::bad_alloc&) {
         return picture + ": there is not enough memory to encode it";
     } catch (const std::exception& error) {
-        return error.what();
+        return words_of(error);
     }
 }
 

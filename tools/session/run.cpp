@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/statistics.hpp"
 #include "core/run/assembly/load_scene.hpp"
@@ -87,7 +88,7 @@ std::string write_what_is_there(RunRecorder& book, const std::string& output,
     try {
         if (!there.empty()) book.write_picture(output);
     } catch (const std::exception& error) {
-        written = std::string("no picture was written: ") + error.what();
+        written = std::string("no picture was written: ") + words_of(error);
     }
     book.write_report(output, outcome);
     return written + goes_on;
@@ -269,7 +270,7 @@ bool Run::show_outcome(const std::string& outcome) {
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory for it");
     } catch (const std::exception& error) {
-        return complain(error.what());
+        return complain(words_of(error));
     }
 }
 
@@ -294,7 +295,7 @@ void Run::report_failure() {
         if (book_.save_checkpoint()) book_.say("what is there is kept: --resume goes on from here");
         book_.write_report(request_.output, "failed");
     } catch (const std::exception& error) {
-        book_.alert(std::string("there is no report of it: ") + error.what());
+        book_.alert(std::string("there is no report of it: ") + words_of(error));
     }
 }
 

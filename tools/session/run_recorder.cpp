@@ -13,6 +13,7 @@
 #include "core/base/own_process.hpp"
 #include "core/base/plain_file.hpp"
 #include "core/base/this_machine.hpp"
+#include "core/base/words_of.hpp"
 #include "core/film/clean/rounds.hpp"
 #include "core/film/exr.hpp"
 #include "core/network/graph/layout.hpp"
@@ -256,7 +257,7 @@ void RunRecorder::end_checkpoint(bool stays) {
         else
             checkpoint_->remove();
     } catch (const std::exception& error) {
-        alert(std::string("samples can't be added to the picture later: ") + error.what());
+        alert(std::string("samples can't be added to the picture later: ") + words_of(error));
     }
     checkpoint_.reset();
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/words_of.hpp"
 #include "tools/pictures/picture_lock.hpp"
 #include "tools/session/frame_scenes.hpp"
 #include "tools/session/frame_writer.hpp"
@@ -108,7 +109,7 @@ private:
         try {
             writer_.code();
         } catch (const std::exception& error) {
-            std::cerr << std::string("lightnet: ") + error.what() + '\n';
+            std::cerr << std::string("lightnet: ") + words_of(error) + '\n';
         }
         book_.fail(i);
     }

@@ -16,6 +16,7 @@
 #include "core/base/error.hpp"
 #include "core/base/json.hpp"
 #include "core/base/json_tree.hpp"
+#include "core/base/words_of.hpp"
 #include "tools/session/edit_queue.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/run.hpp"
@@ -54,7 +55,7 @@ public:
             problems.push_back({{"file", where.file}, {"line", where.line}, {"what", what}});
         tell("error", error.what(), {{"problems", std::move(problems)}});
     }
-    void tell(const std::exception& error) { tell(UserError({"session", 0}, error.what())); }
+    void tell(const std::exception& error) { tell(UserError({"session", 0}, words_of(error))); }
     /// What is told next belongs to another edit; `id`: as JSON, "": it has none.
     void begin(const std::string& id) { ++edits_, id_ = id; }
 

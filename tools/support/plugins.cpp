@@ -12,6 +12,7 @@
 #include "core/base/hash.hpp"
 #include "core/base/joined.hpp"
 #include "core/base/plain_file.hpp"
+#include "core/base/words_of.hpp"
 #include "core/network/light/plugin.hpp"
 #include "core/readers/read_scene.hpp"
 
@@ -99,7 +100,7 @@ void load_plugins(const std::vector<std::string>& files, Registry& registry) {
     for (const auto& file : files) try {
             load_plugin(file, registry);
         } catch (const std::exception& error) {
-            problems.push_back({{file, 0}, std::string("the plugin ") + error.what()});
+            problems.push_back({{file, 0}, std::string("the plugin ") + words_of(error)});
         }
     if (!problems.empty()) throw UserError(std::move(problems));
 }

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "core/base/error.hpp"
+#include "core/base/words_of.hpp"
 #include "transport/store/cache_folder.hpp"
 
 namespace lightnet {
@@ -17,7 +18,7 @@ std::string what_is_wrong_with_the_usual_one() {
         open_cache_folder(folder);
         return ::access(folder.c_str(), W_OK | X_OK) == 0 ? "" : folder + " can't be written";
     } catch (const std::exception& error) {
-        return error.what();
+        return words_of(error);
     }
 }
 

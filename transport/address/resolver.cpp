@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/patience.hpp"
+#include "core/base/words_of.hpp"
 
 namespace lightnet {
 namespace {
@@ -34,7 +35,7 @@ Whereabout looked_up(const NameService& service, const std::string& name) {
     try {
         return service.look_up(name);
     } catch (const std::exception& error) {
-        return {Whereabout::State::unknown, {}, "nobody says where '" + name + "' is: " + error.what()};
+        return {Whereabout::State::unknown, {}, "nobody says where '" + name + "' is: " + words_of(error)};
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/in_quotes.hpp"
+#include "core/base/words_of.hpp"
 
 namespace lightnet {
 namespace {
@@ -161,7 +162,7 @@ bool AllowFile::refresh(std::chrono::steady_clock::time_point now, const std::fu
     try {
         list = read();
     } catch (const std::exception& error) {
-        say(std::string(error.what()) + "; until it is mended nobody is let in");
+        say(words_of(error) + "; until it is mended nobody is let in");
     }
     if (list == list_) return false;
     list_ = std::move(list);

@@ -67,7 +67,10 @@ Bytes BlobCache::read(const Hash& hash) const {
 
 BlobCache::Incoming BlobCache::receive(const Hash& hash) const {
     mark_.renew();
-    return {path_of(hash), hash};
+    Incoming incoming(path_of(hash), hash);
+    // Not while it is being made: a buffer that finds no memory would leave the file behind.
+    incoming.file_.open(incoming.partial_, std::ios::binary | std::ios::trunc);
+    return incoming;
 }
 
 CacheClaim BlobCache::claim() const {
@@ -79,8 +82,7 @@ BlobCache::Incoming::Incoming(std::string path, const Hash& hash)
     : path_(std::move(path)),
       // one of its own: a blob may come from its beginning again before the first attempt is given up
       partial_(path_ + ".part-" + std::to_string(getpid()) + "-" + std::to_string(std::random_device()())),
-      hash_(hash),
-      file_(partial_, std::ios::binary | std::ios::trunc) {}
+      hash_(hash) {}
 
 BlobCache::Incoming::Incoming(Incoming&& other) noexcept
     : path_(std::move(other.path_)),

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <exception>
 #include <msgpack.hpp>
+#include <new>
 
 namespace lightnet::packet {
 namespace {
@@ -78,6 +79,8 @@ BodyReader::BodyReader(std::span<const std::byte> body) : tree_(std::make_unique
         tree_->handle = msgpack::unpack(reinterpret_cast<const char*>(body.data()), body.size(), used, by_reference,
                                         nullptr, limit);
         good_ = used == body.size() && tree_->handle.get().type == msgpack::type::MAP;
+    } catch (const std::bad_alloc&) {
+        throw;  // nothing is wrong with the packet, which must not be lost
     } catch (const std::exception&) {
         good_ = false;  // msgpack says what is wrong by its own exceptions; to us the packet is broken
     }

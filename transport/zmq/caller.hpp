@@ -20,7 +20,6 @@ namespace lightnet {
 /// turn until one answers, and where none does, the name is looked up anew. Never waits. One thread's.
 class Caller final : public HostLine {
 public:
-    using Handshakes = lightnet::Handshakes;
     /// Without `keys` nothing is encrypted. Throws SocketError for what is no endpoint, or when there are no sockets.
     Caller(const SocketContext& context, std::string endpoint, std::optional<LineKeys> keys,
            Handshakes handshakes = Handshakes::ignored);

@@ -26,6 +26,7 @@
 #include "core/base/error.hpp"
 #include "core/base/exr_claims.hpp"
 #include "core/base/spare_threads.hpp"
+#include "core/base/words_of.hpp"
 #include "core/readers/files/files.hpp"
 #include "core/readers/images/image_decoders.hpp"
 
@@ -275,7 +276,7 @@ Image read_exr(Input bytes) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& problem) {
-        throw Error(std::string("EXR: ") + problem.what());
+        throw Error(std::string("EXR: ") + words_of(problem));
     }
 }
 

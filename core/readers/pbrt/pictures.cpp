@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/base/words_of.hpp"
 #include "core/readers/common/below_black.hpp"
 #include "core/readers/files/other_places.hpp"
 #include "core/readers/images/image_facts.hpp"
@@ -64,7 +65,7 @@ void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding
     } catch (const MissingHere& problem) {
         order.problem = problem.what(), order.here_only = true;
     } catch (const std::exception& problem) {
-        order.problem = problem.what();
+        order.problem = words_of(problem);
     }
 }
 

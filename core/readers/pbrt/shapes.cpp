@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/suggestion.hpp"
+#include "core/base/words_of.hpp"
 #include "core/readers/files/gzip.hpp"
 #include "core/readers/pbrt/curves.hpp"
 #include "core/readers/pbrt/meshes.hpp"
@@ -167,7 +168,7 @@ std::shared_ptr<MadeShape> Shapes::ply_mesh(Parameters& parameters, const Placem
             made->geometry = made->relief ? read_mesh(bytes) : placed_mesh(read_mesh(bytes), placement);
             budget_.take(*made->geometry);
         } catch (const std::exception& problem) {
-            made->problem = fmt::format("'{}': {}", file, problem.what());
+            made->problem = fmt::format("'{}': {}", file, words_of(problem));
         }
     });
     return made;

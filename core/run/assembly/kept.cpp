@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/words_of.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/run/assembly/prepared.hpp"
 
@@ -78,7 +79,7 @@ KeptResults read_kept(const Graph& graph, const Registry& registry, Files& files
             if (!identity) identity = identity_of(scene);
             kept[node.name] = kept_results(*kind, *identity, *files.read(path));
         } catch (const std::exception& error) {
-            const std::string what = error.what();
+            const std::string what = words_of(error);
             const bool says_path = what.find(path) != std::string::npos;
             problems.push_back({node.where, node.kind + " '" + node.name +
                                                 "': 'extend': " + (says_path ? "" : "'" + path + "' ") + what});

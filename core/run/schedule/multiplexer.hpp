@@ -205,7 +205,3 @@ private:
 };
 
 }  // namespace lightnet
-
-#include "core/run/schedule/multiplexer_losses.hpp"
-#include "core/run/schedule/multiplexer_parts.hpp"
-#include "core/run/schedule/multiplexer_votes.hpp"
