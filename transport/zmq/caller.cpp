@@ -40,7 +40,7 @@ Caller::Caller(const SocketContext& context, std::string endpoint, std::optional
 void Caller::call(const IpAddress& address) {
     socket_.reset();  // first: there may be no descriptors for both
     called_.reset();
-    handshakes_ = {};
+    handshakes_.begin();
     const TcpEndpoint there{address.text(), parts_.port};
     auto socket = unconnected_asking_socket(*context_, there.text(), keys_);
     // An attempt that is closed has failed; of what was connected it is told otherwise. To note them costs descriptors.
@@ -59,7 +59,7 @@ void Caller::look_at_events(Time now) {
         if (!seen) continue;
         const bool made = *seen == Handshake::made;
         // Behind another address may be who is meant.
-        if (made || turns_.all().empty() || *called_ == turns_.all().back()) handshake_ = seen;
+        if (made || turns_.all().empty() || *called_ == turns_.all().back()) handshakes_.last = seen;
         if (!made) {
             turns_.refused();
             continue;
@@ -98,7 +98,7 @@ void Caller::watch(Poll& poll) const {
 
 std::optional<Handshake> Caller::look_at_handshake() {
     look_at_events(std::chrono::steady_clock::now());
-    return std::exchange(handshake_, std::nullopt);
+    return std::exchange(handshakes_.last, std::nullopt);
 }
 
 std::string Caller::answering_at() const {

@@ -53,7 +53,6 @@ private:
     Whereabout known_;
     std::vector<IpAddress> heard_;
     HandshakeWatch handshakes_;
-    std::optional<Handshake> handshake_;
     Time next_look_{};
 };
 

@@ -14,12 +14,16 @@ void note_handshakes(const SocketContext& context, Socket& socket);
 std::optional<Handshake> last_handshake(Socket& socket);
 /// How the one ended of which an event tells; none: it tells of something else.
 std::optional<Handshake> handshake_in(const SocketEvent& event);
-/// Tells who says nothing from who hangs up. Of one socket that connects.
+/// Tells who says nothing from who hangs up. Of sockets that connect, one after the other.
 class HandshakeWatch {
 public:
     using Time = std::chrono::steady_clock::time_point;
     /// As handshake_in().
     std::optional<Handshake> see(const SocketEvent& event, Time now);
+    /// What is seen from now on is of another socket.
+    void begin() { begun_.reset(); }
+
+    std::optional<Handshake> last;  // of those that count: its owner's business
 
 private:
     std::optional<Time> begun_;
