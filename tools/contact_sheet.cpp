@@ -92,6 +92,6 @@ int main(int argc, char** argv) try {
     lightnet::write_png(words[0], lightnet::sheet_of({words.begin() + 1, words.end()}, std::uint32_t(pairs)));
     return 0;
 } catch (const std::exception& error) {
-    fmt::print(stderr, "lightnet-contact-sheet: {}\n", words_of(error));
+    fmt::print(stderr, "lightnet-contact-sheet: {}\n", lightnet::words_of(error));
     return 1;
 }
