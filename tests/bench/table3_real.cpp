@@ -18,6 +18,7 @@
 #include "tests/bench/processor_group.hpp"
 #include "tests/bench/stage.hpp"
 #include "tests/bench/table3.hpp"
+#include "tests/bench/thread_times.hpp"
 #include "tests/support/folder.hpp"
 
 namespace lightnet::bench {
@@ -55,6 +56,12 @@ std::array<double, 3> seconds_computed(const SlowDaemons& daemons) {
     return seconds;
 }
 
+std::array<ThreadTimes, 3> times_of_threads(const SlowDaemons& daemons) {
+    std::array<ThreadTimes, 3> times;
+    for (std::size_t i = 0; i < daemons.size(); ++i) times[i] = thread_times(daemons[i]->daemon->process());
+    return times;
+}
+
 /// Seconds that one processor computes, while another does the same: cores of a machine share its memory.
 double seconds_of_work(const Registry& registry, const Graph& graph, std::uint64_t seed) {
     const auto alone = [&] {
@@ -83,8 +90,10 @@ double seconds_of_run(Stage& stage, const Registry& registry, const SlowDaemons&
     cluster.gather(20s, never);
     cluster.adopt(cluster.plan());
     const auto before = seconds_computed(daemons);
+    const auto threads_before = times_of_threads(daemons);
     const Rendered made = stage.on(cluster, run);
     const auto after = seconds_computed(daemons);
+    const auto threads_after = times_of_threads(daemons);
     cluster.finish();
     std::printf("  table3.real: %.2f s on three daemons, %.2f of them to prepare; they computed", made.seconds,
                 made.preparing);
@@ -92,6 +101,8 @@ double seconds_of_run(Stage& stage, const Registry& registry, const SlowDaemons&
         std::printf("%s %.2f of %.2f", i ? "," : "", after[i] - before[i],
                     made.seconds * capacity() * table3_places[i] / 7);
     std::printf(" s\n");
+    for (std::size_t i = 0; i < daemons.size(); ++i)
+        std::printf("    host %zu, by threads: %s s\n", i + 1, text_of(threads_after[i] - threads_before[i]).c_str());
     return made.seconds;
 }
 
