@@ -160,9 +160,7 @@ std::optional<Found> find(const BodyReader& map, const Column& column, std::size
 
 void write(const Found& found, const Column& column, std::byte* to, std::size_t step, std::size_t count) {
     const auto* const from = found.entries.data();
-    if (found.entries.empty())
-        for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i * step, &found.number, sizeof found.number);
-    else if (found.entries.size() == count * column.size)
+    if (found.entries.size() == count * column.size)
         copy_column(column.size, to, step, from, column.size, count);
     else if (found.entries.size() == count)
         widen<1>(to, step, from, count);
@@ -198,9 +196,16 @@ std::optional<Questions<Question>> unpack_columns(std::size_t count, View body) 
         if (!one) return std::nullopt;
         found[i] = *one;
     }
-    auto questions = std::make_shared<std::vector<Question>>(count);
+    // DECISIONS: packets-are-flat
+    Question alike;  // with the numbers that all have
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (found[i].entries.empty())
+            std::memcpy(reinterpret_cast<std::byte*>(&alike) + columns<Question>[i].offset, &found[i].number,
+                        sizeof found[i].number);
+    auto questions = std::make_shared<std::vector<Question>>(count, alike);
     for (std::size_t i = 0; i < found.size(); ++i) {
         const auto& column = columns<Question>[i];
+        if (found[i].entries.empty()) continue;
         write(found[i], column, reinterpret_cast<std::byte*>(questions->data()) + column.offset, sizeof(Question),
               count);
     }

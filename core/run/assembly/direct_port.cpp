@@ -2,7 +2,9 @@
 
 #include <xmmintrin.h>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +38,23 @@ bool is_sound(const Query& question) {
 // Has the node an answer? Most know surfaces only: what they would say of a point in a medium is black.
 bool is_for(const Callee& node, const Query& question) {
     return is_sound(question) && (node.space || !question.is_in_space());
+}
+
+// The highest bit is set where it is infinite, or not a number: where no bit of its exponent is 0.
+std::uint32_t oddness(float number) {
+    constexpr std::uint32_t no_sign = 0x7fffffff, least_exponent = 0x00800000;
+    return (std::bit_cast<std::uint32_t>(number) & no_sign) + least_exponent;
+}
+
+// Most are sound, and about surfaces: that is seen without a branch for each number.
+bool all_plain(std::span<const Query> questions) {
+    std::uint32_t odd = 0;
+    bool any_in_space = false;
+    for (const Query& q : questions) {
+        odd |= oddness(q.outgoing.x) | oddness(q.outgoing.y) | oddness(q.outgoing.z) | oddness(q.u) | oddness(q.v);
+        any_in_space |= q.is_in_space();
+    }
+    return odd >> 31 == 0 && !any_in_space;
 }
 
 // Which question a node threw at: each is asked alone until it throws again. Empty: none is to blame.
@@ -109,13 +128,15 @@ Port::Ticket DirectPort::begin(std::span<const Query> questions, std::span<Rgb> 
 }
 
 void answer(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) try {
-    if (std::all_of(questions.begin(), questions.end(), [&](const Query& q) { return is_for(node, q); }))
+    if (all_plain(questions) ||
+        std::all_of(questions.begin(), questions.end(), [&](const Query& q) { return is_for(node, q); }))
         answer_all(node, width, questions, answers);
     else
         answer_some(node, width, questions, answers);
     check_float_mode();
     if (node.not_finite)
-        for (const Rgb& colour : answers) *node.not_finite += !finite(colour);
+        *node.not_finite += static_cast<std::uint64_t>(
+            std::count_if(answers.begin(), answers.end(), [](const Rgb& colour) { return !finite(colour); }));
 } catch (const NodeError& error) {
     throw NodeError("'" + node.name + "'", error.what(), error.host());
 } catch (const std::exception& error) {
