@@ -5,10 +5,22 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 #include "transport/lines/line_error.hpp"
+#include "transport/lines/look_first.hpp"
 
 namespace lightnet {
+namespace {
+
+struct AsleepHere {
+    AsleepHere() { AwakeThreads::of_process().go(); }
+    ~AsleepHere() { AwakeThreads::of_process().come(); }
+};
+
+void count_this_thread() { thread_local const AwakeThreads::Told counted(1); }
+
+}  // namespace
 
 Poll::Poll() = default;
 Poll::~Poll() = default;
@@ -32,6 +44,7 @@ void Poll::add(int descriptor) {
 // is not known that there is nothing in them, and those whose descriptor tells.
 // DECISIONS: quiet-sockets
 void Poll::wait(std::chrono::milliseconds most) {
+    count_this_thread();
     using Clock = std::chrono::steady_clock;
     const bool found = look_into_each();
     const auto end = Clock::now() + most;
@@ -41,6 +54,22 @@ void Poll::wait(std::chrono::milliseconds most) {
         left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     } while (left.count() > 0);
     wake_up();
+}
+
+void Poll::look_and_wait(std::chrono::milliseconds most) {
+    count_this_thread();
+    thread_local LookFirst first;
+    if (!first.look([this] { return glance(); })) wait(most);
+}
+
+// Nobody falls asleep, so who pushes into a queue needs not wake anybody.
+bool Poll::glance() {
+    bool found = false;
+    for (auto& [socket, readable, queue] : items_) {
+        readable = queue ? !queue->empty() : socket && !socket->quiet() && socket->readable();
+        found |= readable;
+    }
+    return look_at_descriptors(std::chrono::milliseconds(0)) || found;
 }
 
 bool Poll::look_into_each() {
@@ -59,7 +88,11 @@ void Poll::wake_up() {
 
 // False: nothing is readable, and no signal came: the library had something to do for itself, or time is up.
 bool Poll::look_at_descriptors(std::chrono::milliseconds most) {
-    const int told = poll(descriptors_.data(), descriptors_.size(), static_cast<int>(most.count()));
+    const auto told = [&] {
+        std::optional<AsleepHere> asleep;
+        if (most.count() > 0) asleep.emplace();
+        return poll(descriptors_.data(), descriptors_.size(), static_cast<int>(most.count()));
+    }();
     if (told < 0 && errno == EINTR) return true;
     if (told < 0) throw LineError(errno, std::strerror(errno));
     bool found = false;

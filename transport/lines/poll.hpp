@@ -42,6 +42,8 @@ public:
     /// Returns when something is readable, or after `most`, or when the process was sent a signal. Throws LineError
     /// when something is wrong with what it waits for.
     void wait(std::chrono::milliseconds most);
+    /// Does as wait(), but looks for a moment before it sleeps where that is free: see LookFirst.
+    void look_and_wait(std::chrono::milliseconds most);
     bool readable(std::size_t item) const { return items_[item].readable; }
     /// Any of [first, last).
     bool any_readable(std::size_t first, std::size_t last) const;
@@ -52,6 +54,7 @@ private:
         bool readable;
         FrameQueue* queue = nullptr;
     };
+    bool glance();
     bool look_into_each();
     void wake_up();
     bool look_at_descriptors(std::chrono::milliseconds most);

@@ -136,7 +136,7 @@ SocketError::SocketError(int number) : LineError(number, zmq_strerror(number)) {
 // The library starts its threads with the first socket, and ends the process when it gets none: they are asked for
 // beforehand, and started at once, so that nobody else of this process takes them meanwhile.
 SocketContext::SocketContext(int io_threads, std::shared_ptr<const NameService> names)
-    : names_(std::make_unique<Resolver>(std::move(names))) {
+    : names_(std::make_unique<Resolver>(std::move(names))), awake_(io_threads) {
     keep_process_id();
     want_descriptors(descriptors_of_context, "a process with sockets");
     want_threads(static_cast<std::size_t>(io_threads) + threads_of_context, "a process with sockets");

@@ -12,6 +12,7 @@
 #include "transport/lines/high_water.hpp"
 #include "transport/lines/host_transport.hpp"
 #include "transport/lines/line_error.hpp"
+#include "transport/lines/look_first.hpp"
 
 namespace zmq {
 class context_t;
@@ -46,6 +47,7 @@ public:
 private:
     std::unique_ptr<Resolver> names_;
     std::unique_ptr<zmq::context_t> context_;
+    const AwakeThreads::Told awake_;  // the library's, of which nobody knows when they sleep
 };
 
 /// For the other end of a connection to say who it is.

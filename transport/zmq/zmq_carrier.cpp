@@ -87,7 +87,7 @@ struct ZmqCarrier::Sockets {
             if (me.queues.asks) poll.add(*me.queues.asks);
             Leadership::Turn turn(me.queues.led(), me.queues.replies.get());
             turn.watch(poll);
-            poll.wait(most);
+            me.queues.may_lead ? poll.look_and_wait(most) : poll.wait(most);
             turn.look(poll);
         }
         for (std::size_t i = 0; i < sources.size(); ++i) sources[i]->dry = !poll.readable(i);
