@@ -47,15 +47,15 @@ public:
         }
     }
 
-    void become_target() {
-        finish();
+    void become_target(bool synced) {
+        finish(synced);
         if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "could not be renamed to its name");
         name_.clear();
     }
 
     // False: something is there.
     bool become_new_target() {
-        finish();
+        finish(true);
         if (::link(name_.c_str(), target_.c_str()) == 0) return true;
         if (errno != EEXIST) fail(target_, "could not be given its name");
         return false;
@@ -85,9 +85,9 @@ private:
         fail(target_, "can't be written");
     }
 
-    // All is on the disk, under a name of its own.
-    void finish() {
-        if (::fsync(file_) != 0) fail(target_, "could not be synced to the disk");
+    // All is on the disk, or on its way there, under a name of its own.
+    void finish(bool synced) {
+        if (synced && ::fsync(file_) != 0) fail(target_, "could not be synced to the disk");
         if (!way_to_file_.empty())
             with_a_name([&] {
                 return ::linkat(AT_FDCWD, way_to_file_.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) == 0;
@@ -117,8 +117,14 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) { wri
 void write_file(const std::filesystem::path& path, std::span<const std::string_view> pieces) {
     TemporaryFile file(path, 0666);
     for (const auto piece : pieces) file.write(piece);
-    file.become_target();
+    file.become_target(true);
     sync_folder(path.parent_path());
+}
+
+void write_file_unsynced(const std::filesystem::path& path, std::string_view bytes) {
+    TemporaryFile file(path, 0666);
+    file.write(bytes);
+    file.become_target(false);
 }
 
 bool write_new_secret(const std::filesystem::path& path, std::string_view bytes) {

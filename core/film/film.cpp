@@ -247,10 +247,11 @@ void Film::expect_valid(const Tile& tile, std::size_t colours) const {
                         within(tile.y, tile.height, window_.y, window_.height) &&
                         of_cells(tile.x, tile.width, window_.x + window_.width) &&
                         of_cells(tile.y, tile.height, window_.y + window_.height);
+    const bool of_look = (tile.coarse != 0) == format_.coarse;
     const bool of_blocks = tile.first_sample % samples_per_block == 0 && tile.first_sample < format_.samples &&
                            (tile.samples == samples_of(tile.block(), format_.samples) ||
                             (is_whole(tile) && tile.samples == samples_of(handed_out(tile.block()), format_.samples)));
-    if (!inside || !of_blocks)
+    if (!inside || !of_blocks || !of_look)
         throw Error("film", fmt::format("no tile of this picture: {}x{} pixels at {},{}, {} samples from {}",
                                         tile.width, tile.height, tile.x, tile.y, tile.samples, tile.first_sample));
     if (colours != tile.pixels() * format_.colours())
@@ -318,7 +319,8 @@ double Film::mean_samples() const {
     double sum = 0;
     for (const auto& [area, rectangle] : rectangles_)
         sum += double(std::uint64_t{std::get<2>(area)} * std::get<3>(area)) * samples_shown(rectangle);
-    return sum / static_cast<double>(window_.pixels());
+    const double taken = format_.coarse ? 1.0 / (coarse_stride * coarse_stride) : 1;
+    return taken * sum / static_cast<double>(window_.pixels());
 }
 
 }  // namespace lightnet

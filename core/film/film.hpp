@@ -66,7 +66,8 @@ struct FilmFormat {
     std::set<std::string> facts{};     // those of `shown` that are no light: exposure is not for them
     std::map<std::string, std::uint32_t> ids{};    // those of `facts` that are ids: how many a pixel keeps
     std::map<std::string, std::string> letters{};  // of those of `shown` whose channels don't have the usual ones
-    bool alpha = false;                            // the last colour is the part of a pixel that surfaces cover
+    bool alpha = false, coarse = false;  // the last colour is the part of a pixel that surfaces cover; it is a coarse
+                                         // look, see coarse_look()
     PictureStorage storage{};                      // of the file
 
     /// Of one pixel: one for each layer, one or one for each id for what is beside them, and one for alpha.
@@ -99,6 +100,9 @@ struct FilmFormat {
     Window work() const;
 };
 
+/// Of a first, coarse look at a picture: one sample of a quarter of its pixels, see Tile. It is complete like any other
+/// film, and nothing of it goes into the picture.
+FilmFormat coarse_look(FilmFormat picture);
 /// The tiles that such a film needs in any case. Where cells decide, tiles are single blocks of whole cells, and
 /// Film::more() gives the others.
 std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size);
@@ -204,7 +208,7 @@ public:
     bool complete() const { return folded_ + spared_ == all_; }
     /// How much of it is there, 0 … 1.
     double done() const;
-    /// Samples per pixel so far, on average.
+    /// Samples per pixel so far, on average; of a coarse look, those that were taken.
     double mean_samples() const;
     /// Colours that were not finite and count as black, per layer.
     std::vector<std::uint64_t> lost() const;

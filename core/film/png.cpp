@@ -78,7 +78,7 @@ std::array<float, 255> least_of_levels() {
     return least;
 }
 
-std::string png_of(const Picture& picture, const PngView& view) {
+std::string png_of(const Picture& picture, const PngView& view, PngEffort effort) {
     const auto exposure = static_cast<float>(std::exp2(view.stops));
     const bool with_alpha = view.alpha && !picture.alpha.empty();
     std::vector<Rgb> pixels = exposed(picture, exposure, with_alpha);
@@ -95,6 +95,7 @@ std::string png_of(const Picture& picture, const PngView& view) {
 
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
+    if (effort == PngEffort::quick) image.flags |= PNG_IMAGE_FLAG_FAST;
     image.width = picture.width;
     image.height = picture.height;
     image.format = with_alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;

@@ -22,9 +22,12 @@ struct PngView {
 /// How linear radiance becomes 8 bits: for reports and for the user to read.
 std::string tone_of(const PngView& view);
 
+/// What a PNG is packed for: a small file, or one that is there at once.
+enum class PngEffort { small, quick };
+
 /// The bytes of an 8 bit sRGB PNG of the beauty, toned as tone_of() says. NaN is black. Where the view has an alpha, so
 /// has the PNG: not premultiplied, as its format wants it, so colours are divided by it before they are toned.
-std::string png_of(const Picture& picture, const PngView& view = {});
+std::string png_of(const Picture& picture, const PngView& view = {}, PngEffort effort = PngEffort::small);
 
 /// What a channel must be at least to get each level from 1 on, where there is no other view: so that others may tone
 /// exactly alike.

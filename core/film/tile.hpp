@@ -28,19 +28,26 @@ constexpr Blocks group_of(std::uint32_t block) {
     return {block / count * count, count};
 }
 
+/// Of a first, coarse look at a picture, every second pixel of every second row is rendered.
+inline constexpr std::uint32_t coarse_stride = 2;
+
 /// One block of samples, or a whole group of them, for a rectangle of pixels: the unit of work of a renderer. In a
-/// rehearsal only pixels whose x and y are multiples of the stride are looked at, and nobody wants to see them.
+/// rehearsal only pixels whose x and y are multiples of the stride are looked at, and nobody wants to see them. In a
+/// first, coarse look at a picture pixels are counted from the tile's own corner, and the others show what their neighbour
+/// does.
 struct Tile {
     std::uint32_t x = 0, y = 0;  // of the upper left pixel, in the picture
     std::uint32_t width = 0, height = 0;
     std::uint32_t first_sample = 0;  // a multiple of samples_per_block
     std::uint32_t samples = 0;       // 1 … samples_per_block, or as many as the group has
-    std::uint32_t stride = 0;        // of a rehearsal, see below; 0: it is for the picture
+    std::uint32_t stride = 0;        // of a rehearsal or a coarse look; 0: it is for the picture
+    std::uint32_t coarse = 0;        // 1: it is a coarse look, of one sample
 
     std::size_t pixels() const { return std::size_t{width} * height; }
-    bool rehearses() const { return stride > 0; }
+    bool rehearses() const { return stride > 0 && !coarse; }
     bool looks_at(std::uint32_t px, std::uint32_t py) const {
-        return stride == 0 || (px % stride == 0 && py % stride == 0);
+        const std::uint32_t left = coarse ? x : 0, top = coarse ? y : 0;
+        return stride == 0 || ((px - left) % stride == 0 && (py - top) % stride == 0);
     }
     std::uint32_t block() const { return first_sample / samples_per_block; }
     std::uint32_t blocks() const { return (samples + samples_per_block - 1) / samples_per_block; }

@@ -77,7 +77,19 @@ std::vector<Tile> tiles_of(const Window& window, std::uint32_t tile_size, std::u
     return tiles;
 }
 
+FilmFormat coarse_look(FilmFormat picture) {
+    picture.samples = 1;
+    picture.refinement = {};
+    picture.coarse = true;
+    return picture;
+}
+
 std::vector<Tile> tiles_of(const FilmFormat& format, std::uint32_t tile_size) {
+    if (format.coarse) {
+        auto tiles = tiles_of(format.work(), tile_size, 1);
+        for (Tile& tile : tiles) tile.stride = coarse_stride, tile.coarse = 1;
+        return tiles;
+    }
     if (!format.adaptive()) return tiles_of(format.work(), tile_size, format.least_samples());
     // Cells decide block by block.
     std::vector<Tile> tiles;

@@ -2,6 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/camera_in.hpp"
+#include "core/scene/data/same_shapes.hpp"
 #include "core/scene/geometry/geometry.hpp"
 #include "core/scene/lamps/lights.hpp"
 #include "core/scene/ray_witness.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -86,12 +88,19 @@ thread_local RayWitness* witness = nullptr;
 RayWitness* watch_rays(RayWitness* next) { return std::exchange(witness, next); }
 
 struct Scene::Built {
-    Built(SceneData given, const SceneOptions& options)
+    static std::shared_ptr<const Built> make(SceneData data, const SceneOptions& options);
+    /// `last`: another scene, or null. Where its shapes are these, its trees serve this one as well.
+    Built(SceneData given, const SceneOptions& options, std::shared_ptr<const Built> last)
         : data(checked(std::move(given))),
           shading(data),
-          geometry(data, shading, {options.isa, options.build_threads}),
-          media(data, options.isa, options.build_threads),
-          box(finite_box(geometry.bounds())) {
+          isa(options.isa),
+          like(with_same_trees(std::move(last))),
+          media(data, options.isa, options.build_threads) {
+        if (like)
+            pad_positions(data);
+        else
+            own.emplace(data, shading, Geometry::Options{options.isa, options.build_threads});
+        box = finite_box(geometry().bounds());
         // Those who ask the data find the camera that is used.
         data.film = sized(data.film, options);
         data.camera = camera_in(data, data.film.width, data.film.height);
@@ -103,15 +112,39 @@ struct Scene::Built {
                                               wanted);
     }
 
+    std::shared_ptr<const Built> with_same_trees(std::shared_ptr<const Built> last) const {
+        if (last && last->like) last = last->like;
+        return last && last->isa == isa && have_same_shapes(last->data, data) ? last : nullptr;
+    }
+    const Geometry& geometry() const { return like ? *like->own : *own; }
+
     SceneData data;
     Shading shading;
-    Geometry geometry;
+    std::string isa;
+    std::shared_ptr<const Built> like;  // whose trees these are; null: it has its own
+    std::optional<Geometry> own;
     Media media;
     Box box;
 };
 
+// Who edits a scene has the one before still there.
+// DECISIONS: trees-of-the-scene-before
+std::shared_ptr<const Scene::Built> Scene::Built::make(SceneData data, const SceneOptions& options) {
+    static std::mutex mutex;
+    static std::weak_ptr<const Built> newest;
+    std::shared_ptr<const Built> last;
+    {
+        const std::lock_guard lock(mutex);
+        last = newest.lock();
+    }
+    auto built = std::make_shared<const Built>(std::move(data), options, std::move(last));
+    const std::lock_guard lock(mutex);
+    newest = built;
+    return built;
+}
+
 Scene::Scene(SceneData data, const SceneOptions& options)
-    : built_(std::make_shared<const Built>(std::move(data), options)),
+    : built_(Built::make(std::move(data), options)),
       lights_(built_->lights({})),
       onlooker_{built_->data.camera, true, built_->data.film},
       camera_(onlooker_.camera, onlooker_.film.width, onlooker_.film.height),
@@ -139,35 +172,35 @@ Scene::~Scene() = default;
 
 std::optional<Hit> Scene::intersect(const Ray& ray) const {
     view_.parts.expect(ScenePart::geometry);
-    const auto hit = built_->geometry.intersect(ray);
+    const auto hit = built_->geometry().intersect(ray);
     if (witness) witness->met(ray, hit);
     return hit;
 }
 
 void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
     view_.parts.expect(ScenePart::geometry);
-    built_->geometry.intersect(rays, hits);
+    built_->geometry().intersect(rays, hits);
     if (witness)
         for (std::size_t i = 0; i < rays.size(); ++i) witness->met(rays[i], hits[i]);
 }
 
 bool Scene::occluded(const Ray& ray) const {
     view_.parts.expect(ScenePart::geometry);
-    const bool hidden = built_->geometry.occluded(ray);
+    const bool hidden = built_->geometry().occluded(ray);
     if (witness) witness->looked(ray, hidden);
     return hidden;
 }
 
 void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const {
     view_.parts.expect(ScenePart::geometry);
-    built_->geometry.occluded(rays, hidden);
+    built_->geometry().occluded(rays, hidden);
     if (witness)
         for (std::size_t i = 0; i < rays.size(); ++i) witness->looked(rays[i], hidden[i] != 0);
 }
 
 std::optional<Hit> Scene::nearest(Vec3 position, Vec3 normal, float reach) const {
     view_.parts.expect(ScenePart::geometry);
-    return built_->geometry.nearest({built_->data, built_->shading}, {position, normal, reach});
+    return built_->geometry().nearest({built_->data, built_->shading}, {position, normal, reach});
 }
 
 SurfacePoint Scene::surface(const Hit& hit) const {
@@ -353,7 +386,7 @@ float Scene::radius() const { return view_.parts.expect(ScenePart::geometry), le
 
 SceneSize Scene::size() const {
     view_.parts.expect(whole_scene);
-    return size_of(built_->data, built_->geometry, *lights_);
+    return size_of(built_->data, built_->geometry(), *lights_);
 }
 
 std::uint64_t Scene::rays_of_this_thread() { return Geometry::rays_of_this_thread(); }

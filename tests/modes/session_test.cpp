@@ -123,14 +123,37 @@ TEST_F(SessionTest, GivesEachEditTheBytesOfAFreshRun) {
     EXPECT_EQ(test::complaints_of_schema("session", folder / "events", true), "");
 }
 
-TEST_F(SessionTest, FirstShowsASampleOfEachPixel) {
+TEST_F(SessionTest, FirstShowsAQuarterOfThePixelsAndThenASampleOfEach) {
     begin({"--threads", "2", "--samples", "40"});
     wait_for_picture(0);
     std::vector<double> samples;
-    for (const auto& event : events()) samples.push_back(event["samples"]);
-    ASSERT_GE(samples.size(), 3u);
-    EXPECT_EQ(samples.front(), 1);
+    for (const auto& event : events()) {
+        samples.push_back(event["samples"]);
+        EXPECT_EQ(event["coarse"], samples.size() == 1) << event;
+    }
+    ASSERT_GE(samples.size(), 4u);
+    EXPECT_EQ(samples[0], 0.25);
+    EXPECT_EQ(samples[1], 1);
     EXPECT_EQ(samples.back(), 40);
+    EXPECT_EQ(end(), 0);
+}
+
+TEST_F(SessionTest, SaysWhereTheTimeOfAnEditWent) {
+    begin();
+    wait_for_picture(0);
+    say(R"({"set": {"light.samples": 2}})");
+    wait_for_picture(1);
+    for (const auto& event : events()) {
+        double sum = 0;
+        for (const auto& [part, seconds] : event["took"].items()) {
+            EXPECT_GE(seconds, 0) << part;
+            sum += seconds.get<double>();
+        }
+        for (const char* part : {"stop", "read", "load", "prepare", "render", "write"})
+            EXPECT_TRUE(event["took"].contains(part)) << part;
+        EXPECT_LE(sum, event["seconds"].get<double>());
+        EXPECT_GE(sum, event["seconds"].get<double>() / 4) << event;
+    }
     EXPECT_EQ(end(), 0);
 }
 

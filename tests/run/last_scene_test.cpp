@@ -45,6 +45,18 @@ TEST(LastScene, IsLookedAtOtherwiseWhereNothingElseDiffers) {
     EXPECT_EQ(last.take(source, look), nullptr) << "it is another scene";
 }
 
+TEST(LastScene, StaysUntilTheNextOfTheSameFileIsThere) {
+    LastScene last;
+    auto source = source_of("a");
+    const auto scene = std::make_shared<const Scene>(SceneData{});
+    last.hold(source, scene);
+    source.params["two_sided"] = Value{true};
+    EXPECT_EQ(last.take(source), nullptr);
+    EXPECT_EQ(scene.use_count(), 2) << "what the next has in common with it is still there";
+    last.hold(source, std::make_shared<const Scene>(SceneData{}));
+    EXPECT_EQ(scene.use_count(), 1);
+}
+
 TEST(LastScene, IsDroppedWhereMoreHangsOnTheCamera) {
     LastScene last;
     auto source = source_of("a");

@@ -133,6 +133,24 @@ TEST(Stages, AreOfNodesThatCannotAskEachOther) {
     EXPECT_THAT(stages_of(nodes, graph, registry), ElementsAre(0, 0, 2, 3, 4));
 }
 
+TEST(SerialRun, ShowsOfACoarseLookWhatNeighboursShow) {
+    const auto registry = test::with_learner();
+    const auto network = network_of(learning_graph(registry), registry);
+    SerialRun run(*network);
+    run.prepare("", nullptr);
+    const Tile fine{3, 2, 7, 5, 0, 1};
+    Tile coarse = fine;
+    coarse.stride = coarse_stride, coarse.coarse = 1;
+    const auto all = run.render(fine), some = run.render(coarse);
+    ASSERT_EQ(all.size(), some.size());
+    const std::size_t colours = all.size() / fine.pixels();
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        const std::size_t x = i / colours % fine.width, y = i / colours / fine.width;
+        const std::size_t from = (y / 2 * 2) * fine.width + x / 2 * 2;
+        EXPECT_EQ(some[i], all[from * colours + i % colours]) << x << ',' << y;
+    }
+}
+
 TEST(SerialRun, SaysWhenAKindRehearsesUnannounced) {
     auto kinds = standard_nodes();
     kinds.push_back(test::learner());

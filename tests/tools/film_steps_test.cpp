@@ -40,8 +40,9 @@ protected:
             std::deque<Tile> wanted(tiles.begin(), tiles.end());
             for (; !wanted.empty() && !steps.limit().over(now()); wanted.pop_front()) {
                 spent += cost * wanted.front().samples * double(wanted.front().pixels());
-                steps.film().add(wanted.front(), rendered(wanted.front()));
-                for (const Tile& more : steps.film().more(wanted.front())) wanted.push_back(more);
+                Film& film = steps.film_of(wanted.front());
+                film.add(wanted.front(), rendered(wanted.front()));
+                for (const Tile& more : film.more(wanted.front())) wanted.push_back(more);
             }
             if (!wanted.empty()) break;
         }
@@ -133,17 +134,40 @@ TEST_F(FilmStepsTest, GoesOnLaterToTheSameBytes) {
     }
 }
 
-TEST_F(FilmStepsTest, BeginWithASampleWhereSomebodyWaits) {
+TEST_F(FilmStepsTest, BeginWithACoarseLookWhereSomebodyWaits) {
     for (const float error : {0.f, 0.05f}) {
         FilmSteps steps(format_of(300, error), tile_side);
-        steps.quick_first();
-        auto tiles = steps.next(now());
-        for (const Tile& tile : tiles) steps.film().add(tile, rendered(tile));
+        steps.by_groups(true);
+        const auto coarse = steps.next(now());
+        for (const Tile& tile : coarse) {
+            EXPECT_TRUE(tile.coarse && !tile.rehearses() && tile.samples == 1);
+            EXPECT_FALSE(steps.picture().complete());
+            steps.film_of(tile).add(tile, rendered(tile));
+        }
+        EXPECT_TRUE(steps.picture().complete() && steps.picture().format().coarse);
+        EXPECT_EQ(steps.picture().mean_samples(), 0.25);
+        EXPECT_EQ(steps.film().done(), 0) << "nothing of it stays";
+        const auto tiles = steps.next(now());
+        EXPECT_EQ(tiles.front().samples, 1u);
+        for (const Tile& tile : tiles) {
+            EXPECT_TRUE(steps.picture().format().coarse);
+            steps.film_of(tile).add(tile, rendered(tile));
+        }
+        EXPECT_EQ(steps.picture().mean_samples(), 1);
         go_on(steps, 0);
         EXPECT_TRUE(steps.finished());
-        EXPECT_EQ(tiles.front().samples, 1u);
         EXPECT_TRUE(steps.picture().picture() == at_once(300, error));
     }
+}
+
+TEST_F(FilmStepsTest, HaveNothingOfACoarseLookAtTheEnd) {
+    FilmSteps steps(format_of(300), tile_side);
+    steps.by_groups(true);
+    for (const Tile& tile : steps.next(now())) steps.film_of(tile).add(tile, rendered(tile));
+    steps.end();
+    EXPECT_EQ(steps.picture().covered(), 0);
+    Tile coarse{0, 0, 4, 4, 0, 1, coarse_stride, 1};
+    EXPECT_THROW(steps.film_of(coarse).add(coarse, rendered(coarse)), Error);
 }
 
 TEST_F(FilmStepsTest, LooksAtEachGroupOfBlocksWhereThatIsWanted) {

@@ -90,6 +90,7 @@ void EditQueue::add(std::string line) {
 }
 
 void EditQueue::supersede() {
+    if (!news_.since) news_.since = std::chrono::steady_clock::now();
     signals_.superseded = true;
     signals_.any = true;
 }

@@ -12,6 +12,7 @@ FilmSteps::FilmSteps(FilmFormat format, std::uint32_t tile)
     : tile_(tile), wanted_(format.samples), film_(std::move(format)) {}
 
 const Film& FilmSteps::picture() const {
+    if (coarse_ && coarse_->complete() && !last_ && film_.covered() < 1) return *coarse_;
     const bool last_is_better = last_ && (!film_.complete() || last_->format().samples > film_.format().samples);
     return last_is_better ? *last_ : film_;
 }
@@ -19,6 +20,7 @@ const Film& FilmSteps::picture() const {
 double FilmSteps::done() const { return film_.done() * film_.format().samples / wanted_; }
 
 bool FilmSteps::lasts(const Tile& tile) const {
+    if (tile.coarse) return false;
     return tile.samples % samples_per_block == 0 || film_.format().samples == wanted_;
 }
 
@@ -51,7 +53,7 @@ void FilmSteps::clear() {
     Film empty(std::move(format));
     empty.expose(film_.scale());
     film_ = std::move(empty);
-    last_.reset();
+    last_.reset(), coarse_.reset();
     there_ = adds_ = 0;
     begun_.reset();
 }
@@ -75,6 +77,12 @@ std::uint32_t FilmSteps::next_samples(Time now) const {
 }
 
 std::vector<Tile> FilmSteps::next(Time now) {
+    if (quick_first_ && !coarse_ && !last_ && film_.samples_begun() == 0 && !limit_.over(now)) {
+        coarse_.emplace(coarse_look(film_.format()));
+        coarse_->expose(film_.scale());
+        return tiles_of(coarse_->format(), coarse_stride * tile_);
+    }
+    if (film_.covered() == 1) coarse_.reset();
     if (begun_ && film_.complete()) limit_.took(std::exchange(adds_, 0), now - *begun_);
     while (true) {
         if (film_.complete()) there_ = film_.format().samples;
@@ -92,6 +100,7 @@ std::vector<Tile> FilmSteps::next(Time now) {
 }
 
 void FilmSteps::end() {
+    coarse_.reset();
     if (film_.complete() || last_) return;
     if (const auto samples = film_.even_samples()) film_ = film_.of_samples(*samples);
 }

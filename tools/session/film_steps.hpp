@@ -12,7 +12,7 @@ namespace lightnet {
 
 /// A step is a picture of more samples than the one before, which it goes on from. So there is always a picture that
 /// all pixels have finished, with the bytes that its number of samples gives. Without a limit and without looks in
-/// between, a run is one step. One thread's.
+/// between, a run is one step. Where somebody waits, a coarse look comes first, of which nothing stays. One thread's.
 class FilmSteps {
 public:
     using Time = TimeLimit::Time;
@@ -22,15 +22,19 @@ public:
 
     void limit(TimeLimit limit) { limit_ = limit; }
     const TimeLimit& limit() const { return limit_; }
-    /// A step for each group of blocks, to look at.
-    void by_groups() { by_groups_ = true; }
-    /// Steps by groups, too, after a first one of a single sample, as there is somebody who waits for it.
-    void quick_first() { by_groups_ = quick_first_ = true; }
+    /// A step for each group of blocks, to look at. `quick_first`: after a coarse look and a step of a single sample, as
+    /// there is somebody who waits for it.
+    void by_groups(bool quick_first = false) { by_groups_ = true, quick_first_ = quick_first; }
 
     /// What is being rendered. It stays where it is.
     Film& film() { return film_; }
     const Film& film() const { return film_; }
-    /// What would be written now: the last picture that all pixels have finished; none yet: what is there.
+    /// Where a tile belongs: there, or into the coarse look.
+    Film& film_of(const Tile& tile) { return tile.coarse && coarse_ ? *coarse_ : film_; }
+    /// What grows now: either of them.
+    const Film& at_work() const { return coarse_ && film_.done() == 0 ? *coarse_ : film_; }
+    /// What would be written now: the last picture that all pixels have finished; none yet: what is there, or the coarse
+    /// look, until end().
     const Film& picture() const;
     /// All samples that are wanted are there.
     bool finished() const { return film_.complete() && film_.format().samples == wanted_; }
@@ -61,10 +65,9 @@ private:
     bool by_groups_ = false, quick_first_ = false;
     TimeLimit limit_;
     Film film_;
-    std::optional<Film> last_;   // finished
-    std::uint32_t there_ = 0;    // samples that all pixels have
-    std::uint32_t adds_ = 0;     // samples, the step that goes on; 0: differs
-    std::optional<Time> begun_;  // that step
+    std::optional<Film> last_, coarse_;       // finished; the first look
+    std::uint32_t there_ = 0, adds_ = 0;      // samples: that all pixels have; of the step that goes on, 0: differs
+    std::optional<Time> begun_;               // that step
 };
 
 }  // namespace lightnet

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/run/assembly/kept.hpp"
+#include "core/run/assembly/last_scene.hpp"
 
 namespace lightnet {
 namespace {
@@ -63,6 +64,7 @@ bool Handover::holds_scene_of(const Job& job, const Registry& registry) const {
 void Handover::drop() {
     source_.reset();
     read_.reset();
+    if (built_ && may_stay_beside_another(*built_)) before_ = built_;
     built_.reset();
     data_.reset();
     tree_.reset();

@@ -29,7 +29,7 @@ public:
     /// The scene was read for that job, and is kept as long as the next ones want the same.
     void hold(const Job& job, const Registry& registry, std::shared_ptr<ReadScene> read);
     /// It was built; or, where nothing was built of it, this is what there is.
-    void hold(std::shared_ptr<const Scene> built) { built_ = std::move(built); }
+    void hold(std::shared_ptr<const Scene> built) { built_ = std::move(built), before_.reset(); }
     void hold(SceneData data) { data_ = std::move(data); }
     /// One or the other, of a scene that its run needs no more.
     void leave(LoadedScene& scene);
@@ -69,7 +69,7 @@ private:
     std::set<std::string> liars_, said_;
     std::optional<SceneSource> source_;
     std::shared_ptr<ReadScene> read_;
-    std::shared_ptr<const Scene> built_;
+    std::shared_ptr<const Scene> built_, before_;  // the next will be like that
     std::optional<SceneData> data_;
     std::optional<SceneTree> tree_;
 };

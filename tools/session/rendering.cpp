@@ -28,7 +28,25 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
+constexpr std::chrono::milliseconds now_and_then = 50ms;  // looks around, while a run goes on
+constexpr std::chrono::milliseconds at_once = 4ms;        // looks whether it is still wanted, where that changes
 constexpr auto drain_deadline = 5s;  // for tiles that are under way when the run is told to stop
+
+/// Work between two looks around, in slices.
+struct Slices {
+    std::chrono::milliseconds slice;
+
+    /// True: `work` says so. It ends early when `ended` does.
+    template <class Work, class Ended>
+    bool of(const Work& work, const Ended& ended) const {
+        for (auto left = now_and_then; left > 0ms && !ended(); left -= slice)
+            if (work(std::min(slice, left))) return true;
+        return false;
+    }
+};
+
+// Where somebody edits what is at work, it may end at any time, and the next is waited for.
+std::chrono::milliseconds slice_of(const RunRequest& request) { return request.shown ? at_once : now_and_then; }
 
 // Somebody has answered falsely.
 struct Lie {
@@ -93,6 +111,7 @@ void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
 }
 
 std::shared_ptr<const Network> Rendering::network_of(LoadedScene scene) {
+    const LookingAt looking(what_.request.shown ? &signals_.superseded : nullptr);
     auto network = build_network(what_.job, what_.registry, std::move(scene));
     if (what_.handover) what_.handover->hold(network->scene);
     book_.share(network, what_.made_from);
@@ -186,7 +205,8 @@ ResultCache* Rendering::cache() {
 
 // True when all is prepared, false when the run was stopped, or its time is over.
 bool Rendering::prepare(Coordinator& coordinator, const Crowd& crowd) {
-    while (!coordinator.prepare(50ms)) {
+    const Slices slices{slice_of(what_.request)};
+    while (!slices.of([&](auto most) { return coordinator.prepare(most); }, [&] { return ended(); })) {
         if (ended()) return false;
         crowd.look_around(coordinator.in_force().places_of[image_].size());
         book_.preparing(with(coordinator.progress(), crowd.doing()));
@@ -249,7 +269,9 @@ void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, con
     });
     more = &master;
     master.use(coordinator.in_force());
-    while (!ended() && !master.work(50ms)) {
+    const Slices slices{slice_of(what_.request)};
+    while (!ended() &&
+           !slices.of([&](auto most) { return master.work(most); }, [&] { return ended(); })) {
         crowd.look_around(master.renderers());
         crowd.move();
         show(crowd);

@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
+#include "core/base/unwanted.hpp"
 #include "core/base/words_of.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/readers/statistics.hpp"
@@ -115,6 +116,7 @@ public:
 
 private:
     std::optional<int> render_film();
+    LoadedScene load();
     int write_files();
     int cancelled();
     bool end_in_time();
@@ -153,10 +155,16 @@ void Run::take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made) {
     book_.take_up_checkpoint(request_.resume);
 }
 
+// Who edits what is at work waits for the next picture.
+LoadedScene Run::load() {
+    const LookingAt looking(request_.shown ? &signals_.superseded : nullptr);
+    return scene_.load(book_);
+}
+
 std::optional<int> Run::render_film() {
     if (const auto words = words_of_lighting(request_); !words.empty()) book_.say(words);
     book_.phase("load");
-    LoadedScene scene = scene_.load(book_);
+    LoadedScene scene = load();
     check_inputs(request_, scene_.job(), format_);
     if (scene_.was_there(scene, book_)) return exit_code::done;
     const MadeFrom made = scene_.made_from(scene);
@@ -231,7 +239,13 @@ std::optional<int> Run::render() {
     check_files(request_, format_);
     lock_.emplace(request_.output);
     open_to_watchers();
-    return watched([this] { return render_film(); });
+    return watched([this]() -> std::optional<int> {
+        try {
+            return render_film();
+        } catch (const Cancelled&) {  // while its scene was read or built
+            return cancelled();
+        }
+    });
 }
 
 int Run::write() {
@@ -243,6 +257,7 @@ std::optional<int> Run::watched(const std::function<std::optional<int>()>& work)
     try {
         const auto code = reported(work);
         if (!code) return code;
+        if (signals_.superseded && *code == exit_code::interrupted) return code;  // the next is shown at once
         const bool told = show_outcome(*code == exit_code::done          ? "done"
                                        : *code == exit_code::interrupted ? "cancelled"
                                                                          : "failed");

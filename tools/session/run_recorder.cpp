@@ -149,7 +149,7 @@ void RunRecorder::preview(const std::string& exr, double seconds) {
 }
 
 std::vector<Tile> RunRecorder::take(const Tile& tile, std::span<const Rgb> pixels) {
-    Film& film = steps_.film();
+    Film& film = steps_.film_of(tile);
     const bool added = film.add(tile, pixels);
     const bool wanted = added || !film.has(tile);
     auto next = wanted ? film.more(tile) : std::vector<Tile>{};
@@ -161,7 +161,7 @@ std::vector<Tile> RunRecorder::take(const Tile& tile, std::span<const Rgb> pixel
     if (watcher_) watcher_->taken(tile), watcher_->look(film);
     progress_.update(work_shown(), Clock::now());
     if (preview_ && preview_->pace.due(Clock::now()) && !steps_.finished()) write_preview();
-    if (checkpoint_)
+    if (checkpoint_ && !tile.coarse)
         if (const auto why = checkpoint_->save_if_due(blocks_); !why.empty()) alert("no checkpoint: " + why);
     return next;
 }
@@ -174,7 +174,7 @@ std::uint64_t RunRecorder::work_shown() const {
 void RunRecorder::show(const Watcher::Hosts& hosts) {
     const bool renders = !report_.phases.empty() && report_.phases.back().name == "render";
     watcher_->progress(steps_.done(), renders ? progress_.seconds_left(Clock::now()) : std::nullopt);
-    watcher_->look(film(), hosts);
+    watcher_->look(steps_.at_work(), hosts);
     for (const auto& line : watcher_->news()) say(line);
 }
 

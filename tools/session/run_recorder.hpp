@@ -89,10 +89,10 @@ public:
     void preview(const std::string& exr, double seconds);
     /// With the report, writes there what all places were busy with.
     void trace_to(const std::string& file) { trace_ = file; }
-    /// From now on, writes the picture after each step, the first of which is quick, and says so.
+    /// From now on, writes the picture after each step, the first of which is coarse, and says so.
     void show_steps(const std::string& exr, std::function<void(const PictureShown&)> shown);
-    /// Says that the picture is written; none: nobody wants to know.
-    void tell_shown(bool finished);
+    /// Says that the picture is written, which took `writing` seconds of the phase; none: nobody wants to know.
+    void tell_shown(bool finished, double writing = 0);
     /// Writes what is there now. "": it is written; else why not.
     std::string preview_now(const std::string& exr);
     /// The phase ends, and all that follows is of another thread, while another run goes on beside this one.
@@ -116,8 +116,8 @@ public:
     /// Nothing more is rendered: what is there is the picture. In words: "37 samples per pixel of 64, on average"; "":
     /// nothing is there.
     std::string end_early();
-    /// Every pixel has samples.
-    bool covered() const { return steps_.picture().covered() == 1; }
+    /// Every pixel has samples of its own.
+    bool covered() const { return steps_.picture().covered() == 1 && !steps_.picture().format().coarse; }
     /// A line of the report's settings.
     void set(const std::string& name, const std::string& value) { report_.settings[name] = value; }
     void count(const Counters& counters) { counters_ += counters; }

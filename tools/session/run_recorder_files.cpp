@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/base/atomic_file.hpp"
 #include "core/base/own_files.hpp"
 #include "core/film/clean/clean.hpp"
 #include "core/film/exr.hpp"
@@ -19,7 +20,9 @@ namespace lightnet {
 Picture RunRecorder::picture_now() const {
     Picture picture = steps_.picture().picture(scale_);
     add_words(words_, picture);
-    picture.notes.texts[samples_note] = std::to_string(steps_.picture().format().samples);
+    const FilmFormat& format = steps_.picture().format();
+    picture.notes.texts[samples_note] =
+        fmt::format("{:.10g}", format.coarse ? steps_.picture().mean_samples() : format.samples);
     return picture;
 }
 
@@ -29,14 +32,17 @@ void RunRecorder::write_files(const std::string& exr, bool quickly) {
     expect_ours(png, png_beginning);
     auto picture = picture_now();
     if (quickly) picture.storage.compression = lossless_compressions().front();
+    const auto write = [&](const std::filesystem::path& file, const std::string& bytes) {
+        quickly ? write_file_unsynced(file, bytes) : write_file(file, bytes);
+    };
     if (picture.overflowed && !std::exchange(said_overflow_, true))
         alert(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
                           picture.overflowed));
-    apart([&] { write_exr(exr, picture); });
+    apart([&] { write(exr, exr_of(picture)); });
     written_.insert(exr);
     last_.brightness = brightness_of(picture, png_.stops.value_or(0));
     const PngView view = png_view(png_, last_.brightness, exposed_);
-    apart([&] { write_png(png, picture, view); });
+    apart([&] { write(png, png_of(picture, view, quickly ? PngEffort::quick : PngEffort::small)); });
     last_.stops = view.stops;
     report_.layers = light_of_layers(picture);
     report_.outputs = {exr, png.string()};

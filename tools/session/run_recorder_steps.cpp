@@ -38,7 +38,7 @@ std::vector<Tile> RunRecorder::next_step() {
 }
 
 void RunRecorder::show_steps(const std::string& exr, std::function<void(const PictureShown&)> shown) {
-    steps_.quick_first();
+    steps_.by_groups(true);
     step_exr_ = exr;
     shown_ = std::move(shown);
 }
@@ -46,18 +46,25 @@ void RunRecorder::show_steps(const std::string& exr, std::function<void(const Pi
 // What is lost of it comes with the next step.
 void RunRecorder::write_step() {
     const double samples = steps_.picture().mean_samples();
-    if (!covered() || samples <= last_.step) return;
+    if (steps_.picture().covered() < 1 || samples <= last_.step) return;
     last_.step = samples;
+    const auto begun = Pace::Clock::now();
     try {
         write_files(step_exr_, true);
-        tell_shown(false);
+        tell_shown(false, seconds_since(begun));
     } catch (const Error& error) {
         alert(std::string("the picture so far isn't shown: ") + error.what());
     }
 }
 
-void RunRecorder::tell_shown(bool finished) {
-    if (shown_) shown_({steps_.picture().mean_samples(), finished, report_.warnings});
+void RunRecorder::tell_shown(bool finished, double writing) {
+    if (!shown_) return;
+    const Film& film = steps_.picture();
+    PictureShown shown{film.mean_samples(), finished, film.format().coarse, report_.warnings, {}};
+    for (const auto& phase : report_.phases) shown.took.emplace_back(phase.name, phase.seconds);
+    if (phase_begun_) shown.took.back().second = seconds_since(*phase_begun_) - writing;
+    if (writing > 0) shown.took.emplace_back("write", writing);
+    shown_(shown);
 }
 
 // Of the picture that would be written now, unless that has been noted.

@@ -96,7 +96,8 @@ private:
         const auto news = queue_.take();
         ends_ |= news.ended;
         if (news.lines.empty() && news.files.empty()) return false;
-        edited_ = Clock::now();
+        edited_ = news.since.value_or(Clock::now());
+        stop_ = seconds_since(edited_);
         if (!news.files.empty()) events_.begin("");
         const bool scene_too = news.files.size() > 1 || !news.files.contains(graph_);
         if (!news.files.empty() && scene_too) handover_.forget_files();
@@ -123,7 +124,9 @@ private:
         int code = exit_code::usage;
         finished_ = false;
         try {
+            const auto begun = Clock::now();
             RunRequest request = session_.request(edits_);
+            read_ = seconds_since(begun);
             files_.insert(request.scene);
             request.shown = [this, &request](const PictureShown& shown) { tell(request, shown); };
             code = run(request, registry_, &handover_, queue_.signals());
@@ -164,13 +167,17 @@ private:
         const double seconds = seconds_since(edited_);
         JsonTree warnings = JsonTree::list();
         for (const auto& warning : shown.warnings) warnings.push_back(warning);
+        JsonTree took{{"stop", stop_}, {"read", read_}};
+        for (const auto& [part, its_seconds] : shown.took) took[part] = its_seconds;
         events_.tell("picture",
                      fmt::format("{}: {:.10g} samples per pixel, {:.2f} s{}", request.output, shown.samples, seconds,
                                  shown.finished ? "" : " so far"),
                      {{"file", request.output},
                       {"samples", shown.samples},
+                      {"coarse", shown.coarse},
                       {"finished", shown.finished},
                       {"seconds", seconds},
+                      {"took", std::move(took)},
                       {"warnings", std::move(warnings)}});
     }
 
@@ -189,6 +196,7 @@ private:
     std::optional<WatchServer> server_;  // before those whom it calls are gone
     Events events_;
     Clock::time_point edited_ = Clock::now();
+    double stop_ = 0, read_ = 0;  // seconds: until the picture at work had ended; in which the graph was read
     bool ends_ = false;      // with the picture at work
     bool finished_ = false;  // the picture of all edits so far
 };

@@ -99,7 +99,8 @@ void Watcher::taken(const Tile& tile) {
     const auto flying = std::find(state_.in_flight.begin(), state_.in_flight.end(), tile);
     if (flying != state_.in_flight.end()) state_.in_flight.erase(flying);
     if (!changed_) return;
-    const Tile area{tile.x, tile.y, tile.width, tile.height};
+    Tile area{tile.x, tile.y, tile.width, tile.height};
+    area.coarse = tile.coarse;
     if (std::find(changed_->begin(), changed_->end(), area) == changed_->end()) changed_->push_back(area);
 }
 
@@ -107,6 +108,7 @@ void Watcher::taken(const Tile& tile) {
 void Watcher::take_areas_of(const Film& film) {
     const auto areas = film.areas();
     changed_.emplace(areas.begin(), areas.end());
+    for (Tile& area : *changed_) area.coarse = film.format().coarse;
 }
 
 void Watcher::show_pixels(const Film& film, std::chrono::duration<double> most) {
@@ -114,7 +116,8 @@ void Watcher::show_pixels(const Film& film, std::chrono::duration<double> most) 
     const auto end = Clock::now() + most;
     while (!changed_->empty() && Clock::now() < end) {
         const Tile area = changed_->front();
-        if (!board_->show(area, cleaning_.so_far(film, area))) return;
+        const bool outdated = area.coarse && !film.format().coarse;
+        if (!outdated && !board_->show(area, cleaning_.so_far(film, area))) return;
         changed_->pop_front();
     }
 }
@@ -122,7 +125,7 @@ void Watcher::show_pixels(const Film& film, std::chrono::duration<double> most) 
 void Watcher::look(const Film& film) {
     const auto now = Clock::now();
     if (!board_->wanted() || too_large_ || !pixel_pace_.due(now)) return;
-    if (cleaning_.look(film)) take_areas_of(film);
+    if (!film.format().coarse && cleaning_.look(film)) take_areas_of(film);
     show_pixels(film, most_pixel_time);
     pixel_pace_.put_off(now);
 }
@@ -169,7 +172,7 @@ void Watcher::finish(const Film& film, const std::string& outcome, ForecastCurve
     state_.forecast = std::move(forecast);
     state_.in_flight.clear();
     state_.doing.clear();
-    if (picture_wanted() && !too_large_ && cleaning_.finish(film)) take_areas_of(film);
+    if (picture_wanted() && !too_large_ && !film.format().coarse && cleaning_.finish(film)) take_areas_of(film);
     bool told = false;
     const auto end = Clock::now() + 300ms;  // the board is never taken for long
     do {

@@ -47,7 +47,8 @@ constexpr std::array columns<Tile>{Column{"x", offsetof(Tile, x), 4},
                                    Column{"height", offsetof(Tile, height), 4},
                                    Column{"first", offsetof(Tile, first_sample), 4},
                                    Column{"samples", offsetof(Tile, samples), 4},
-                                   Column{"stride", offsetof(Tile, stride), 4}};
+                                   Column{"stride", offsetof(Tile, stride), 4},
+                                   Column{"coarse", offsetof(Tile, coarse), 4}};
 
 template <>
 constexpr std::array columns<Step>{Column{"kind", offsetof(Step, kind), 4}, Column{"call", offsetof(Step, call), 4},

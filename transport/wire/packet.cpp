@@ -80,7 +80,8 @@ bool sane(const Tile& tile) {
     constexpr std::uint32_t most = 1 << 16;
     return tile.width > 0 && tile.height > 0 && tile.pixels() <= most && tile.x < most && tile.y < most &&
            tile.samples > 0 && tile.samples <= samples_per_block * blocks_per_group &&
-           tile.first_sample % samples_per_block == 0;
+           tile.first_sample % samples_per_block == 0 &&
+           (!tile.coarse || (tile.stride > 0 && tile.samples <= samples_per_block));
 }
 
 bool sane(const Step& step) { return step.kind <= Step::Kind::last; }

@@ -16,7 +16,8 @@ public:
     virtual ~Renderer() = default;
 
     /// Writes the sums of a tile: for each pixel (row by row) one colour per film layer, side by side. Blocks are added
-    /// up in the order of their index. `pixels` comes zeroed.
+    /// up in the order of their index. Of a coarse look, pixels that are not looked at show their neighbour. `pixels`
+    /// comes zeroed.
     void render(const Tile& tile, std::span<Rgb> pixels) const;
 
 protected:

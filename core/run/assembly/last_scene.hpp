@@ -11,6 +11,9 @@
 
 namespace lightnet {
 
+/// Is there memory for it and for another like it? What both have in common, the other then takes from it.
+bool may_stay_beside_another(const Scene& scene);
+
 /// Holds the scene that a host has built last: through its run, and for a while afterwards. Used by one thread.
 /// DECISIONS: last-scene-stays
 class LastScene {
@@ -21,7 +24,7 @@ public:
     /// The scene looked at otherwise; null: it has to be built anew.
     using Look = std::function<std::shared_ptr<const Scene>(const Scene&)>;
     /// The scene, if it was built from that, or, by `look`, from that but for the camera; else it is dropped, as two
-    /// may not fit into memory.
+    /// may not fit into memory. A small one stays until the next is there, where that comes from the same file, edited.
     std::shared_ptr<const Scene> take(const SceneSource& source, const Look& look = {});
     void hold(SceneSource source, std::shared_ptr<const Scene> scene);
     /// No run needs it now. To be called again and again: what is held too long is dropped.
@@ -30,6 +33,7 @@ public:
 private:
     SceneSource source_;
     std::shared_ptr<const Scene> scene_;
+    std::shared_ptr<const Scene> before_{};  // the next will be like it
     std::optional<Time> since_;  // when it began to wait
 };
 

@@ -1,4 +1,5 @@
-// The coats of a scene: each kind is worked out once, however many materials have it.
+// The coats of a scene: each kind is worked out once, however many materials have it, and however many scenes that are
+// there at the same time.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <tuple>
 
+#include "core/base/shared_work.hpp"
 #include "core/scene/bsdf/coat.hpp"
 #include "core/scene/bsdf/coated_metal.hpp"
 
@@ -21,8 +23,14 @@ public:
 
 private:
     using FacetKey = std::array<float, 5>;
-    std::map<std::tuple<float, FacetKey, float, std::uint32_t>, std::unique_ptr<const Coat>> coats_;
-    std::map<std::tuple<const Coat*, FacetKey, FacetKey>, std::unique_ptr<const CoatedMetal>> over_metals_;
+    using CoatKey = std::tuple<float, FacetKey, float, std::uint32_t>;
+    using MetalKey = std::tuple<const Coat*, FacetKey, FacetKey>;
+    struct OverMetal;  // with the coat that it looks at
+    static SharedWork<CoatKey, Coat>& all_coats();
+    static SharedWork<MetalKey, OverMetal>& all_over_metals();
+
+    std::map<CoatKey, std::shared_ptr<const Coat>> coats_;
+    std::map<MetalKey, std::shared_ptr<const OverMetal>> over_metals_;
 };
 
 }  // namespace lightnet

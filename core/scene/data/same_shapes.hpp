@@ -1,0 +1,13 @@
+// Two scenes in which rays meet the same.
+#pragma once
+
+#include "core/scene/data/scene_data.hpp"
+
+namespace lightnet {
+
+/// Do the shapes of both stand alike, so that what finds surfaces of `built` finds those of `wanted`? Positions of a
+/// mesh of `built` may have one more behind their last. False is safe: so it is where anything moves, or is cut out by
+/// opacity, as more hangs on that than shapes.
+bool have_same_shapes(const SceneData& built, const SceneData& wanted);
+
+}  // namespace lightnet
