@@ -68,7 +68,7 @@ struct FilmFormat {
     std::map<std::string, std::string> letters{};  // of those of `shown` whose channels don't have the usual ones
     bool alpha = false, coarse = false;  // the last colour is the part of a pixel that surfaces cover; it is a coarse
                                          // look, see coarse_look()
-    PictureStorage storage{};                      // of the file
+    PictureStorage storage{};            // of the file
 
     /// Of one pixel: one for each layer, one or one for each id for what is beside them, and one for alpha.
     std::size_t colours() const { return first_colour(shown.size()) + alpha; }

@@ -33,8 +33,8 @@ inline constexpr std::uint32_t coarse_stride = 2;
 
 /// One block of samples, or a whole group of them, for a rectangle of pixels: the unit of work of a renderer. In a
 /// rehearsal only pixels whose x and y are multiples of the stride are looked at, and nobody wants to see them. In a
-/// first, coarse look at a picture pixels are counted from the tile's own corner, and the others show what their neighbour
-/// does.
+/// first, coarse look at a picture pixels are counted from the tile's own corner, and the others show what their
+/// neighbour does.
 struct Tile {
     std::uint32_t x = 0, y = 0;  // of the upper left pixel, in the picture
     std::uint32_t width = 0, height = 0;

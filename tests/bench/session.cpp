@@ -1,5 +1,6 @@
-// Time from an edit to the first picture of a session: one sample per pixel, written to its files. Edits of the camera,
-// of a node and of the scene, on two threads and on two daemons.
+// Time from an edit to the first picture of a session, a coarse look, written to its files, and what it goes into.
+// Edits of the camera, of a node, of what is around the scene, and of a lamp and a material in the scene's file; on two
+// threads and on two daemons. Scenes of the project, and real ones where they are.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -8,7 +9,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -17,31 +22,55 @@
 #include "core/base/json.hpp"
 #include "tests/bench/figure.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/references.hpp"
 
 namespace {
 
 using namespace std::chrono_literals;
 namespace bench = lightnet::bench;
+namespace fs = std::filesystem;
 
 const int edits = bench::sized(40, 2);
-constexpr double goal = 60;  // ms, for the slowest of twenty edits
+
+/// A scene that is edited: its file, what of that is a lamp's number and what is a material's, and how it is looked at.
+struct Edited {
+    std::string name, file;
+    std::string lamp, material;  // behind either a number follows; "": its file has no such number
+    std::string camera;          // of an edit, with the number of the edit in the place of {}
+    double goal;                 // ms, for the slowest of twenty edits
+    std::string rest;            // the folder of what the file names, if that is not beside it
+};
+
+std::string text_of(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
 
 /// A session whose edits go through a pipe with a name.
 class Session {
 public:
-    explicit Session(const std::string& layout) {
+    Session(const Edited& scene, const std::string& layout)
+        : file_(folder_.file("scene.pbrt")), text_(text_of(scene.file)) {
+        if (!scene.rest.empty())
+            for (const auto& entry : fs::directory_iterator(scene.rest))
+                fs::create_symlink(entry.path(), folder_.path() / entry.path().filename());
+        std::ofstream(file_) << text_;
+        std::ofstream(folder_.file("g.lua"))
+            << "scene = Scene { \"scene.pbrt\" }\ndirect = DirectLighting { samples = 1 }\nbounce = PathTracing { "
+               "samples = 1 }\nimage = RayTracer { Combine { direct, bounce }, scene = scene, samples = 1000, film = { "
+               "256, 256 } }\n";
         const std::string pipe = folder_.file("edits");
         if (::mkfifo(pipe.c_str(), 0600) != 0) throw std::runtime_error("no pipe");
-        const auto command = fmt::format(
-            "exec '{}' session '{}/graphs/cornell.lua' {} --size {} -D samples=1000 --cache none --json -o '{}' <'{}'",
-            LIGHTNET_STARTS_LIGHTNET, LIGHTNET_SOURCE_DIR, layout, bench::sized("256x256", "16x16"),
-            folder_.file("now.exr"), pipe);
+        const auto command = fmt::format("exec '{}' session '{}' {} --size {} --cache none --json -o '{}' <'{}'",
+                                         LIGHTNET_STARTS_LIGHTNET, folder_.file("g.lua"), layout,
+                                         bench::sized("256x256", "16x16"), folder_.file("now.exr"), pipe);
         events_.reset(::popen(command.c_str(), "r"));
         edits_ = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
         wait_for_picture(0);
     }
     ~Session() {
-        say(R"({"constants":{"samples":1},"end":true})");
+        say(R"({"set":{"image.samples":1},"end":true})");
         ::close(edits_);
     }
     Session(const Session&) = delete;
@@ -51,12 +80,26 @@ public:
         const std::string line = edit + "\n";
         if (::write(edits_, line.data(), line.size()) != ssize_t(line.size())) throw std::runtime_error("it is gone");
     }
-    // The first one of an edit.
-    void wait_for_picture(std::uint64_t edit) {
+    /// Another number behind `name` in the scene's file.
+    void write(const std::string& name, int number) const {
+        std::string text = text_;
+        const auto at = text.find(name);
+        if (at == std::string::npos) throw std::runtime_error("there is no " + name);
+        const auto begin = at + name.size(), end = text.find_first_of(" ]", begin + 1);
+        text.replace(begin, end - begin,
+                     fmt::format(" {}", std::stod(text.substr(begin)) * (1 + 0.001 * (number + 1))));
+        std::ofstream(file_ + ".new") << text;
+        fs::rename(file_ + ".new", file_);
+    }
+    /// The first one of an edit; what it took, in ms.
+    std::map<std::string, double> wait_for_picture(std::uint64_t edit) {
         for (std::string line; next(line);) {
             const auto event = lightnet::parse_json(line);
             if (event.at("event").text() == "error") throw std::runtime_error(line);
-            if (event.at("event").text() == "picture" && event.at("edit").whole<std::uint64_t>() == edit) return;
+            if (event.at("event").text() != "picture" || event.at("edit").whole<std::uint64_t>() != edit) continue;
+            std::map<std::string, double> took;
+            for (const auto& [part, seconds] : event.at("took").object()) took[part] = 1000 * seconds.number();
+            return took;
         }
         throw std::runtime_error("the session has ended");
     }
@@ -72,40 +115,75 @@ private:
     }
 
     lightnet::test::Folder folder_;
+    std::string file_, text_;
     std::unique_ptr<std::FILE, Closes> events_;
     int edits_ = -1;
 };
 
-std::string edit_of(const std::string& kind, int number) {
-    if (kind == "camera")
-        return fmt::format(R"({{"camera":{{"from":[{},273,-800],"to":[278,273,280]}}}})", 200 + number);
-    if (kind == "node") return fmt::format(R"({{"set":{{"direct.samples":{}}}}})", 1 + number % 2);
-    return fmt::format(R"({{"set":{{"scene.environment_scale":{}}}}})", 1 + number);
+void edit(const Session& session, const Edited& scene, const std::string& kind, int number) {
+    if (kind == "camera") {
+        std::string text = scene.camera;
+        text.replace(text.find("{}"), 2, std::to_string(number));
+        session.say(text);
+    } else if (kind == "node") {
+        session.say(fmt::format(R"({{"set":{{"direct.samples":{}}}}})", 1 + number % 2));
+    } else if (kind == "around") {
+        session.say(fmt::format(R"({{"set":{{"scene.environment_scale":{}}}}})", 2 + number));
+    } else {
+        session.write(kind == "lamp" ? scene.lamp : scene.material, number);
+    }
+}
+
+double at(double part, std::vector<double> times) {
+    std::sort(times.begin(), times.end());
+    return times[std::size_t(part * double(times.size() - 1))];
 }
 
 // Each edit comes while the picture of the one before is at work.
-void measure(const std::string& name, const std::string& layout) {
-    for (const std::string kind : {"camera", "node", "scene"}) {
-        Session session(layout);
+void measure(const Edited& scene, const std::string& name, const std::string& layout) {
+    for (const std::string kind : {"camera", "node", "around", "lamp", "material"}) {
+        if (kind == "lamp" && scene.lamp.empty()) continue;
+        Session session(scene, layout);
         std::vector<double> times;
+        std::map<std::string, std::vector<double>> parts;
         for (int i = 0; i < edits; ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(50 + 37 * i % 100));
-            session.say(edit_of(kind, i));
-            times.push_back(1000 * bench::seconds_of([&] { session.wait_for_picture(std::uint64_t(i) + 1); }));
+            std::this_thread::sleep_for(std::chrono::milliseconds(150 + 37 * i % 100));
+            edit(session, scene, kind, i);
+            times.push_back(1000 * bench::seconds_of([&] {
+                                for (const auto& [part, took] : session.wait_for_picture(std::uint64_t(i) + 1))
+                                    parts[part].push_back(took);
+                            }));
         }
-        std::sort(times.begin(), times.end());
-        const auto at = [&](double part) { return times[std::size_t(part * double(times.size() - 1))]; };
-        std::printf("  %s, %s: p50 %.0f ms, p95 %.0f, p99 %.0f\n", name.c_str(), kind.c_str(), at(0.5), at(0.95),
-                    at(0.99));
-        bench::print_figure("session " + name + " " + kind, {at(0.95)}, {"", "ms ", 1, 0}, goal, false);
+        std::printf("  %s, %s, %s: p50 %.0f ms, p95 %.0f, p99 %.0f;", scene.name.c_str(), name.c_str(), kind.c_str(),
+                    at(0.5, times), at(0.95, times), at(0.99, times));
+        for (const char* part : {"stop", "read", "load", "prepare", "render", "write"})
+            std::printf(" %s %.0f/%.0f", part, at(0.5, parts[part]), at(0.95, parts[part]));
+        std::printf("\n");
+        bench::print_figure("session " + scene.name + " " + name + " " + kind, {at(0.95, times)}, {"", "ms ", 1, 0},
+                            scene.goal, false);
     }
+}
+
+std::vector<Edited> scenes() {
+    const std::string graphs = LIGHTNET_SOURCE_DIR "/graphs/";
+    std::vector<Edited> all{{"cornell", graphs + "cornell_box.pbrt", "\"rgb L\" [", "\"rgb reflectance\" [",
+                             R"({"camera":{"from":[20{},273,-800],"to":[278,273,280]}})", 60, ""},
+                            {"studio", graphs + "studio.pbrt", "\"diffuse\" \"rgb L\" [", "\"rgb reflectance\" [",
+                             R"({"camera":{"fov":4{}}})", 60, ""}};
+    for (const std::string name : {"living-room", "bmw-m6"})
+        if (const auto rest = lightnet::test::shared_file("scenes/" + name + "-pbrt"); rest && !bench::smoke())
+            all.push_back({name, (*rest / (name + ".pbrt")).string(), "", "\"rgb reflectance\" [",
+                           R"({"camera":{"fov":5{}}})", 120, rest->string()});
+    return all;
 }
 
 }  // namespace
 
 int main() {
     return bench::run("session", [] {
-        measure("threads", "--threads 2");
-        measure("daemons", "--local-workers 2");
+        for (const auto& scene : scenes()) {
+            measure(scene, "threads", "--threads 2");
+            measure(scene, "daemons", "--local-workers 2");
+        }
     });
 }

@@ -57,9 +57,9 @@ struct FrameOfSequence {
 
 /// What was written of a run's picture. A value.
 struct PictureShown {
-    double samples = 0;  // per pixel, on average
-    bool finished = false, coarse = false;                // all samples are there; it is a first look, see coarse_look()
-    std::vector<std::string> warnings;                    // of the run, so far
+    double samples = 0;                                  // per pixel, on average
+    bool finished = false, coarse = false;               // all samples are there; it is a first look, see coarse_look()
+    std::vector<std::string> warnings;                   // of the run, so far
     std::vector<std::pair<std::string, double>> took{};  // seconds of its parts, one after the other, by name
 };
 

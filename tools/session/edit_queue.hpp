@@ -36,8 +36,8 @@ public:
 
     struct News {
         std::vector<std::string> lines;
-        std::set<std::string> files;  // that have changed, by their absolute names
-        bool ended = false;           // no more lines will come
+        std::set<std::string> files;                                   // that have changed, by their absolute names
+        bool ended = false;                                            // no more lines will come
         std::optional<std::chrono::steady_clock::time_point> since{};  // when the first of them came; none: none has
     };
     /// What has come since; the picture that is begun next is wanted.

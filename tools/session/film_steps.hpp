@@ -22,8 +22,8 @@ public:
 
     void limit(TimeLimit limit) { limit_ = limit; }
     const TimeLimit& limit() const { return limit_; }
-    /// A step for each group of blocks, to look at. `quick_first`: after a coarse look and a step of a single sample, as
-    /// there is somebody who waits for it.
+    /// A step for each group of blocks, to look at. `quick_first`: after a coarse look and a step of a single sample,
+    /// as there is somebody who waits for it.
     void by_groups(bool quick_first = false) { by_groups_ = true, quick_first_ = quick_first; }
 
     /// What is being rendered. It stays where it is.
@@ -33,8 +33,8 @@ public:
     Film& film_of(const Tile& tile) { return tile.coarse && coarse_ ? *coarse_ : film_; }
     /// What grows now: either of them.
     const Film& at_work() const { return coarse_ && film_.done() == 0 ? *coarse_ : film_; }
-    /// What would be written now: the last picture that all pixels have finished; none yet: what is there, or the coarse
-    /// look, until end().
+    /// What would be written now: the last picture that all pixels have finished; none yet: what is there, or the
+    /// coarse look, until end().
     const Film& picture() const;
     /// All samples that are wanted are there.
     bool finished() const { return film_.complete() && film_.format().samples == wanted_; }
@@ -65,9 +65,9 @@ private:
     bool by_groups_ = false, quick_first_ = false;
     TimeLimit limit_;
     Film film_;
-    std::optional<Film> last_, coarse_;       // finished; the first look
-    std::uint32_t there_ = 0, adds_ = 0;      // samples: that all pixels have; of the step that goes on, 0: differs
-    std::optional<Time> begun_;               // that step
+    std::optional<Film> last_, coarse_;   // finished; the first look
+    std::uint32_t there_ = 0, adds_ = 0;  // samples: that all pixels have; of the step that goes on, 0: differs
+    std::optional<Time> begun_;           // that step
 };
 
 }  // namespace lightnet

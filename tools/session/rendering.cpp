@@ -30,7 +30,7 @@ using namespace std::chrono_literals;
 
 constexpr std::chrono::milliseconds now_and_then = 50ms;  // looks around, while a run goes on
 constexpr std::chrono::milliseconds at_once = 4ms;        // looks whether it is still wanted, where that changes
-constexpr auto drain_deadline = 5s;  // for tiles that are under way when the run is told to stop
+constexpr auto drain_deadline = 5s;                       // for tiles that are under way when the run is told to stop
 
 /// Work between two looks around, in slices.
 struct Slices {
@@ -270,8 +270,7 @@ void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, con
     more = &master;
     master.use(coordinator.in_force());
     const Slices slices{slice_of(what_.request)};
-    while (!ended() &&
-           !slices.of([&](auto most) { return master.work(most); }, [&] { return ended(); })) {
+    while (!ended() && !slices.of([&](auto most) { return master.work(most); }, [&] { return ended(); })) {
         crowd.look_around(master.renderers());
         crowd.move();
         show(crowd);

@@ -197,8 +197,8 @@ private:
     Events events_;
     Clock::time_point edited_ = Clock::now();
     double stop_ = 0, read_ = 0;  // seconds: until the picture at work had ended; in which the graph was read
-    bool ends_ = false;      // with the picture at work
-    bool finished_ = false;  // the picture of all edits so far
+    bool ends_ = false;           // with the picture at work
+    bool finished_ = false;       // the picture of all edits so far
 };
 
 }  // namespace

@@ -13,7 +13,9 @@ void spread(const Tile& tile, std::span<Rgb> pixels) {
     for (std::size_t y = 0; y < tile.height; ++y)
         for (std::size_t x = 0; x < tile.width; ++x) {
             const std::size_t from = (y - y % tile.stride) * tile.width + x - x % tile.stride, to = y * tile.width + x;
-            if (from != to) std::copy_n(pixels.begin() + std::ptrdiff_t(from * colours), colours, pixels.begin() + std::ptrdiff_t(to * colours));
+            if (from != to)
+                std::copy_n(pixels.begin() + std::ptrdiff_t(from * colours), colours,
+                            pixels.begin() + std::ptrdiff_t(to * colours));
         }
 }
 

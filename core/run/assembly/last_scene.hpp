@@ -34,7 +34,7 @@ private:
     SceneSource source_;
     std::shared_ptr<const Scene> scene_;
     std::shared_ptr<const Scene> before_{};  // the next will be like it
-    std::optional<Time> since_;  // when it began to wait
+    std::optional<Time> since_;              // when it began to wait
 };
 
 }  // namespace lightnet

@@ -38,11 +38,7 @@ bool alike(const Curves& built, const Curves& wanted) {
 
 bool alike(const ShapeGeometry& built, const ShapeGeometry& wanted) {
     if (built.index() != wanted.index()) return false;
-    return std::visit(
-        [&]<class S>(const S& one) {
-            return alike(one, std::get<S>(wanted));
-        },
-        built);
+    return std::visit([&]<class S>(const S& one) { return alike(one, std::get<S>(wanted)); }, built);
 }
 
 bool has_surface(const SceneData& scene, const Shape& shape) {
@@ -50,9 +46,8 @@ bool has_surface(const SceneData& scene, const Shape& shape) {
 }
 
 bool is_plain(const SceneData& scene) {
-    return scene.motion.empty() && std::ranges::none_of(scene.materials, [](const Material& material) {
-               return material.opacity.has_value();
-           });
+    return scene.motion.empty() &&
+           std::ranges::none_of(scene.materials, [](const Material& material) { return material.opacity.has_value(); });
 }
 
 }  // namespace
