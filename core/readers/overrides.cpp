@@ -19,6 +19,7 @@
 #include "core/readers/daylight/daylight.hpp"
 #include "core/readers/images/image_facts.hpp"
 #include "core/readers/images/image_file.hpp"
+#include "core/readers/images/known_images.hpp"
 #include "core/readers/lamp_profiles.hpp"
 #include "core/scene/reach.hpp"
 
@@ -149,8 +150,15 @@ EnvironmentData picture_around(const std::string& path, SceneData& scene, Files&
     EnvironmentData environment;
     try {
         expect_image(files.beginning(path, image_beginning));
-        auto [image, remark] = sound(read_image(*files.read(path)));
-        environment.image = std::make_shared<const Image>(std::move(image));
+        const Bytes file = files.read(path);
+        auto known = known_image(file, {});
+        if (!known) {
+            auto [image, strange] = sound(read_image(*file));
+            known = {std::make_shared<const Image>(std::move(image)), std::move(strange)};
+            remember_image(file, {}, *known);
+        }
+        const auto& remark = known->remark;
+        environment.image = known->image;
         for (const std::string& said : {remark, below_black(*environment.image)})
             if (!said.empty()) scene.warnings.push_back({where, "'environment': '" + path + "': " + said});
     } catch (const Error& problem) {

@@ -55,7 +55,7 @@ TEST(SameShapes, AreFoundByTheTreesOfASceneThatIsGone) {
         EXPECT_EQ(scene->surface(*hit).position.z, 1);
     }
     EXPECT_NE(now.bsdf(now.surface(*now.intersect(down))).lobes(), 0);
-    EXPECT_EQ(taller.intersect(down)->distance, 3);
+    EXPECT_FLOAT_EQ(taller.intersect(down)->distance, 3);
 }
 
 }  // namespace

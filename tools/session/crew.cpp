@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <utility>
 
 #include "core/base/allowance.hpp"
 #include "core/base/error.hpp"
@@ -13,6 +14,8 @@
 #include "core/base/suggestion.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/network/graph/check_hosts.hpp"
+#include "transport/launcher/lines_ahead.hpp"
+#include "transport/zmq/zmq_hosts.hpp"
 
 namespace lightnet {
 namespace {
@@ -55,6 +58,7 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<do
     cluster.listen = request.listen;
     cluster.pass = request.pass;
     cluster.threads = request.threads;
+    if (request.shown) cluster.transport = lines_ahead(zmq_hosts());
     options_ = std::move(cluster);
     cluster_ = std::make_unique<Cluster>(options_);
     if (!request.listen.empty()) say_("hosts may join at " + seen_from_elsewhere(cluster_->join_endpoint()));
@@ -115,7 +119,14 @@ void Crew::connect() {
     cluster_ = std::make_unique<Cluster>(options_);
 }
 
+void Crew::end_soon() {
+    cluster_->finish(0ms);
+    ends_ = true;
+}
+
 void Crew::begin_next(const RunRequest& request, Cluster::Options cluster, std::function<double()> done) {
+    constexpr auto until_ended = 300ms;  // who has not by then says that it is busy
+    if (std::exchange(ends_, false)) cluster_->finish(until_ended);
     some_missing_ = !cluster_->missing().empty();
     request_ = &request;
     say_ = cluster.say;

@@ -35,6 +35,8 @@ public:
     /// All hosts take part in the next run, of another request for the same hosts: `cluster` and `done` are as for the
     /// first. The one so far is over. gather() waits for them.
     void begin_next(const RunRequest& request, Cluster::Options cluster, std::function<double()> done);
+    /// The run so far is told to end; whoever begins the next waits until it has.
+    void end_soon();
     /// Waits for those that are to be there from the beginning; no longer than `most`.
     void gather(const std::atomic<bool>& cancelled, std::optional<std::chrono::milliseconds> most);
     /// Hosts that the user named and that take no part: why, and what others have to do for them.
@@ -49,6 +51,7 @@ private:
     void connect();
     const RunRequest* request_;
     bool some_missing_ = false;  // hosts, when the last run was over: they may join in mid-run
+    bool ends_ = false;          // see end_soon()
     std::function<void(const std::string&)> say_;
     std::function<double()> done_;
     std::optional<SpareCache> spare_cache_;  // outlives the workers

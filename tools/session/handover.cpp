@@ -66,6 +66,7 @@ void Handover::drop() {
     read_.reset();
     if (built_ && may_stay_beside_another(*built_)) before_ = built_;
     built_.reset();
+    if (data_) data_->shapes.clear(), before_data_ = std::move(data_);  // its images need not be decoded again
     data_.reset();
     tree_.reset();
 }

@@ -30,7 +30,7 @@ public:
     void hold(const Job& job, const Registry& registry, std::shared_ptr<ReadScene> read);
     /// It was built; or, where nothing was built of it, this is what there is.
     void hold(std::shared_ptr<const Scene> built) { built_ = std::move(built), before_.reset(); }
-    void hold(SceneData data) { data_ = std::move(data); }
+    void hold(SceneData data) { data_ = std::move(data), before_data_.reset(); }
     /// One or the other, of a scene that its run needs no more.
     void leave(LoadedScene& scene);
     /// Somebody has looked into it.
@@ -69,8 +69,8 @@ private:
     std::set<std::string> liars_, said_;
     std::optional<SceneSource> source_;
     std::shared_ptr<ReadScene> read_;
-    std::shared_ptr<const Scene> built_, before_;  // the next will be like that
-    std::optional<SceneData> data_;
+    std::shared_ptr<const Scene> built_, before_;  // the next will be like the latter
+    std::optional<SceneData> data_, before_data_;  // without its shapes
     std::optional<SceneTree> tree_;
 };
 

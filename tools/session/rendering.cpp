@@ -19,6 +19,7 @@
 #include "core/run/master/master_renderer.hpp"
 #include "core/run/schedule/spot_checks.hpp"
 #include "core/run/serial/serial.hpp"
+#include "tools/session/slices.hpp"
 #include "transport/launcher/threaded_run.hpp"
 #include "transport/store/cache_folder.hpp"
 
@@ -28,25 +29,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr std::chrono::milliseconds now_and_then = 50ms;  // looks around, while a run goes on
-constexpr std::chrono::milliseconds at_once = 4ms;        // looks whether it is still wanted, where that changes
-constexpr auto drain_deadline = 5s;                       // for tiles that are under way when the run is told to stop
+constexpr auto drain_deadline = 5s;  // for tiles that are under way when the run is told to stop
 
-/// Work between two looks around, in slices.
-struct Slices {
-    std::chrono::milliseconds slice;
-
-    /// True: `work` says so. It ends early when `ended` does.
-    template <class Work, class Ended>
-    bool of(const Work& work, const Ended& ended) const {
-        for (auto left = now_and_then; left > 0ms && !ended(); left -= slice)
-            if (work(std::min(slice, left))) return true;
-        return false;
-    }
-};
-
-// Where somebody edits what is at work, it may end at any time, and the next is waited for.
-std::chrono::milliseconds slice_of(const RunRequest& request) { return request.shown ? at_once : now_and_then; }
+// Where somebody edits what is at work, it may end at any time.
+Slices slices_of(const RunRequest& request) { return {request.shown ? Slices::at_once : Slices::now_and_then}; }
 
 // Somebody has answered falsely.
 struct Lie {
@@ -205,8 +191,8 @@ ResultCache* Rendering::cache() {
 
 // True when all is prepared, false when the run was stopped, or its time is over.
 bool Rendering::prepare(Coordinator& coordinator, const Crowd& crowd) {
-    const Slices slices{slice_of(what_.request)};
-    while (!slices.of([&](auto most) { return coordinator.prepare(most); }, [&] { return ended(); })) {
+    while (
+        !slices_of(what_.request).of([&](auto most) { return coordinator.prepare(most); }, [&] { return ended(); })) {
         if (ended()) return false;
         crowd.look_around(coordinator.in_force().places_of[image_].size());
         book_.preparing(with(coordinator.progress(), crowd.doing()));
@@ -269,8 +255,8 @@ void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, con
     });
     more = &master;
     master.use(coordinator.in_force());
-    const Slices slices{slice_of(what_.request)};
-    while (!ended() && !slices.of([&](auto most) { return master.work(most); }, [&] { return ended(); })) {
+    while (!ended() &&
+           !slices_of(what_.request).of([&](auto most) { return master.work(most); }, [&] { return ended(); })) {
         crowd.look_around(master.renderers());
         crowd.move();
         show(crowd);
@@ -375,10 +361,8 @@ void Rendering::on(Crew& crew) {
         if (what_.request.tuning.verify > 0 && cluster.lie()) throw Lie{*cluster.lie()};
     };
     crew.gather(signals_.any, book_.time_left());
-    if (ended()) {
-        cluster.finish(300ms);
-        return;
-    }
+    if (signals_.superseded) return crew.end_soon();
+    if (ended()) return void(cluster.finish(300ms));
     book_.use(cluster.plan(), what_.job.graph);
     for (const auto& host : crew.missing()) book_.warn(host);
     warn_of_unverified(cluster.plan());
@@ -404,6 +388,7 @@ void Rendering::on(Crew& crew) {
     book_.show_last([&] { return cluster.hosts(); });
     book_.use(cluster.plan(), what_.job.graph);
     for (const auto& host : cluster.hosts()) book_.use(host);
+    if (signals_.superseded) return crew.end_soon();
     const auto counted = cluster.finish(signals_.any ? 300ms : 1000ms);
     if (!signals_.any) trust();  // a word of the last moment
     for (const auto& host : cluster.hosts()) book_.use(host);

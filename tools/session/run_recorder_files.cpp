@@ -6,6 +6,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/own_files.hpp"
+#include "core/base/spare_threads.hpp"
 #include "core/film/clean/clean.hpp"
 #include "core/film/exr.hpp"
 #include "core/film/npz.hpp"
@@ -16,6 +17,17 @@
 #include "tools/session/run_recorder.hpp"
 
 namespace lightnet {
+namespace {
+
+// For whoever waits for it: both at once, and nobody waits for the disk.
+void write_quickly(const std::string& exr, const std::filesystem::path& png, const Picture& picture,
+                   const PngView& view) {
+    auto written = in_background([&] { write_file_unsynced(exr, exr_of(picture)); });
+    write_file_unsynced(png, png_of(picture, view, PngEffort::quick));
+    written.get();
+}
+
+}  // namespace
 
 Picture RunRecorder::picture_now() const {
     Picture picture = steps_.picture().picture(scale_);
@@ -32,19 +44,17 @@ void RunRecorder::write_files(const std::string& exr, bool quickly) {
     expect_ours(png, png_beginning);
     auto picture = picture_now();
     if (quickly) picture.storage.compression = lossless_compressions().front();
-    const auto write = [&](const std::filesystem::path& file, const std::string& bytes) {
-        quickly ? write_file_unsynced(file, bytes) : write_file(file, bytes);
-    };
     if (picture.overflowed && !std::exchange(said_overflow_, true))
         alert(fmt::format("{} pixels are brighter than the numbers of a picture can be, and count as black",
                           picture.overflowed));
-    apart([&] { write(exr, exr_of(picture)); });
-    written_.insert(exr);
+    if (!quickly) apart([&] { write_exr(exr, picture); });
+    if (!quickly) written_.insert(exr);  // whatever becomes of the other
     last_.brightness = brightness_of(picture, png_.stops.value_or(0));
     const PngView view = png_view(png_, last_.brightness, exposed_);
-    apart([&] { write(png, png_of(picture, view, quickly ? PngEffort::quick : PngEffort::small)); });
+    apart([&] { quickly ? write_quickly(exr, png, picture, view) : write_png(png, picture, view); });
+    written_.insert(exr);
     last_.stops = view.stops;
-    report_.layers = light_of_layers(picture);
+    if (!quickly) report_.layers = light_of_layers(picture);
     report_.outputs = {exr, png.string()};
     if (!arrays_.empty()) {
         expect_ours(arrays_, npz_beginning);

@@ -17,11 +17,13 @@ Cluster::~Cluster() = default;
 
 void Cluster::gather(HostPatience patience, const std::atomic<bool>& cancelled,
                      const std::function<void()>& look_around) {
+    constexpr auto at_once = std::chrono::milliseconds(1), now_and_then = std::chrono::milliseconds(20);
+    constexpr auto soon = std::chrono::milliseconds(250);  // so long, hosts that are there answer quickly
     const auto begun = Clock::now();
     links_->expected.begin(patience, begun);
     HostWait host_wait(patience, begun);
     while (!cancelled) {
-        wait(std::chrono::milliseconds(20));
+        wait(Clock::now() - begun < soon ? at_once : now_and_then);
         look_around();
         links_->arrived.clear();  // plans on the way here; plan() is the one that counts
         const auto all = links_->standing();

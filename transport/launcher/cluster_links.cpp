@@ -31,6 +31,7 @@ Pass pass_for_joiners(const Cluster::Options& options) {
 
 Cluster::Links::Links(Options given) : options(std::move(given)), offer(offer_of(options)) {
     if (!options.warn) options.warn = options.say;
+    if (!options.transport || options.threads) context = std::make_shared<const SocketContext>();
     if (!options.transport) options.transport = zmq_hosts(context);
     const auto say_so = [this](const std::string& text) { say_of_stranger(text); };
     plan.places_of.resize(options.job.graph.nodes.size());

@@ -31,8 +31,8 @@ struct Cluster::Links {
 
     Options options;
     RunOffer offer;
-    std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
-    std::optional<JoinListener> joiners;  // hosts that dial in
+    std::shared_ptr<const SocketContext> context;  // null: its hosts come another way, and it has no places
+    std::optional<JoinListener> joiners;           // hosts that dial in
     std::vector<std::unique_ptr<HostLink>> links;
     std::map<std::string, State> states;     // as last told
     std::map<std::string, unsigned> losses;  // of hosts that took part

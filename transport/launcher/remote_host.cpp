@@ -13,6 +13,7 @@ using packet::Type;
 
 constexpr auto call_interval = std::chrono::milliseconds(200);
 constexpr auto connect_interval = std::chrono::milliseconds(5);
+constexpr auto plan_interval = std::chrono::milliseconds(1);  // for others to come who are in it
 constexpr auto busy_interval = std::chrono::seconds(1);
 constexpr auto ping_interval = std::chrono::milliseconds(400);
 constexpr int abandoned_for_sure = 3;  // handshakes: a line may be cut in the middle of one
@@ -115,7 +116,7 @@ void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
         next_call_ = now + (connected ? call_interval : connect_interval);
     } else if (now >= next_call_ && state_ == State::greeted) {
         const auto expected = plan();
-        next_call_ = now + (expected ? std::chrono::milliseconds(busy_interval) : connect_interval);
+        next_call_ = now + (expected ? std::chrono::milliseconds(busy_interval) : plan_interval);
         if (expected && !line_.waiting()) send(Type::begin, job_with(*expected));
     }
     line_.go_on(now, socket_);

@@ -8,7 +8,7 @@ namespace lightnet {
 namespace {
 
 // Gives each pixel of a coarse look what the one that was looked at shows, beside it or above.
-void spread(const Tile& tile, std::span<Rgb> pixels) {
+void show_neighbours(const Tile& tile, std::span<Rgb> pixels) {
     const std::size_t colours = pixels.size() / tile.pixels();
     for (std::size_t y = 0; y < tile.height; ++y)
         for (std::size_t x = 0; x < tile.width; ++x) {
@@ -24,7 +24,7 @@ void spread(const Tile& tile, std::span<Rgb> pixels) {
 void Renderer::render(const Tile& tile, std::span<Rgb> pixels) const {
     if (tile.blocks() == 1) {
         render_block(tile, pixels);
-        if (tile.coarse) spread(tile, pixels);
+        if (tile.coarse) show_neighbours(tile, pixels);
         return;
     }
     std::vector<Rgb> block;

@@ -12,6 +12,11 @@
 namespace lightnet {
 namespace {
 
+KnownImage made_sound(Image decoded) {
+    auto [image, remark] = sound(std::move(decoded));
+    return {std::make_shared<const Image>(std::move(image)), std::move(remark)};
+}
+
 bool has_light(const SceneData& scene) {
     return !scene.environments.empty() || !scene.lights.empty() ||
            std::ranges::any_of(scene.shapes, [](const Shape& shape) { return shape.emission.has_value(); });
@@ -44,12 +49,12 @@ std::optional<Bytes> Assets::read(const std::string& path, const SourceLine& whe
 bool Assets::exists(const std::string& path) { return try_read(path).bytes != nullptr; }
 
 const Assets::Picture& Assets::decoded(const std::string& name, const Encoding& encoding,
-                                       const std::function<Image()>& decode) {
+                                       const std::function<KnownImage()>& decode) {
     const auto [entry, fresh] = pictures_.try_emplace({name, encoding.curve, encoding.gamma});
     if (!fresh) return entry->second;
     try {
-        auto [image, remark] = sound(decode());
-        entry->second = {std::make_shared<const Image>(std::move(image)), "", std::move(remark)};
+        const KnownImage made = decode();
+        entry->second = {made.image, "", made.remark};
     } catch (const MissingHere&) {
         throw;
     } catch (const Error& problem) {
@@ -61,7 +66,11 @@ const Assets::Picture& Assets::decoded(const std::string& name, const Encoding& 
 const Assets::Picture& Assets::try_picture(const std::string& path, const Encoding& encoding) {
     return decoded(path, encoding, [&] {
         expect_image(files_.beginning(path, image_beginning));
-        return read_image(*files_.read(path), encoding);
+        const Bytes file = files_.read(path);
+        if (auto known = known_image(file, encoding)) return *std::move(known);
+        const KnownImage made = made_sound(read_image(*file, encoding));
+        remember_image(file, encoding, made);
+        return made;
     });
 }
 
@@ -88,7 +97,7 @@ std::shared_ptr<const Image> Assets::picture(const std::string& path, const Enco
 
 std::shared_ptr<const Image> Assets::picture(const std::string& name, std::span<const std::byte> bytes,
                                              const Encoding& encoding, const SourceLine& where) {
-    return or_grey(name, decoded(name, encoding, [&] { return read_image(bytes, encoding); }), where);
+    return or_grey(name, decoded(name, encoding, [&] { return made_sound(read_image(bytes, encoding)); }), where);
 }
 
 std::shared_ptr<const Image> Assets::no_picture(const std::string& name, const std::string& why,

@@ -16,6 +16,7 @@
 #include "core/readers/files/files.hpp"
 #include "core/readers/files/other_places.hpp"
 #include "core/readers/images/image_file.hpp"
+#include "core/readers/images/known_images.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet {
@@ -72,7 +73,8 @@ public:
 private:
     using Key = std::tuple<std::string, Encoding::Curve, float>;
 
-    const Picture& decoded(const std::string& name, const Encoding& encoding, const std::function<Image()>& decode);
+    const Picture& decoded(const std::string& name, const Encoding& encoding,
+                           const std::function<KnownImage()>& decode);
     std::shared_ptr<const Image> or_grey(const std::string& name, const Picture& picture, const SourceLine& where);
 
     Files& files_;

@@ -9,6 +9,7 @@
 #include "core/readers/common/below_black.hpp"
 #include "core/readers/files/other_places.hpp"
 #include "core/readers/images/image_facts.hpp"
+#include "core/readers/images/known_images.hpp"
 
 namespace lightnet::pbrt {
 namespace {
@@ -22,10 +23,17 @@ std::shared_ptr<const Image> Pictures::get(const std::string& name, const Encodi
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
     orders_.push_back(std::make_unique<Order>(Order{name, where, std::make_shared<Image>()}));
     Order& order = *orders_.back();
-    known_.emplace(key, order.image);
-    if (const Bytes bytes = read(order))
+    const Bytes bytes = read(order);
+    std::shared_ptr<const Image> image = order.image;
+    if (const auto made = bytes ? known_image(bytes, encoding) : std::nullopt) {
+        order.known = image = made->image;
+        order.remark = made->remark;
+        pixels_ += std::uint64_t{image->width} * image->height;
+    } else if (bytes) {
         thread_pool_.add([this, &order, bytes, encoding] { decode(order, bytes, encoding); });
-    return order.image;
+    }
+    known_.emplace(key, image);
+    return image;
 }
 
 // Null: its problem says why.
@@ -62,6 +70,7 @@ void Pictures::decode(Order& order, const Bytes& bytes, const Encoding& encoding
         pixels_ += std::uint64_t{image.width} * image.height;
         *order.image = std::move(image);
         order.remark = std::move(remark);
+        remember_image(bytes, encoding, {order.image, order.remark});
     } catch (const MissingHere& problem) {
         order.problem = problem.what(), order.here_only = true;
     } catch (const std::exception& problem) {
@@ -87,7 +96,8 @@ void Pictures::finish() {
 
 void Pictures::warn_below_black(const SceneData& scene) const {
     std::vector<NamedImage> all;
-    for (const auto& order : orders_) all.push_back({order->image.get(), order->name, order->where});
+    for (const auto& order : orders_)
+        all.push_back({order->known ? order->known.get() : order->image.get(), order->name, order->where});
     lightnet::warn_below_black(scene, all, sources_.report);
 }
 

@@ -34,10 +34,11 @@ private:
     struct Order {
         std::string name;
         SourceLine where;
-        std::shared_ptr<Image> image;
-        std::string problem{};   // "": none
-        std::string remark{};    // what is strange about it; "": nothing
-        bool here_only = false;  // elsewhere it may be had
+        std::shared_ptr<Image> image;                  // to be decoded
+        std::shared_ptr<const Image> known = nullptr;  // instead: somebody has decoded it
+        std::string problem{};                         // "": none
+        std::string remark{};                          // what is strange about it; "": nothing
+        bool here_only = false;                        // elsewhere it may be had
     };
     using Key = std::tuple<std::string, Encoding::Curve, float>;
 

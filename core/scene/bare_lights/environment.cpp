@@ -4,12 +4,15 @@
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/sky_layout.hpp"
 #include "core/base/math/turns.hpp"
+#include "core/base/shared_work.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <string>
+#include <tuple>
 
 namespace lightnet {
 namespace {
@@ -63,6 +66,18 @@ Environment::Environment(const EnvironmentData& data)
     width_ = image_->width;
     height_ = image_->height;
     weigh();
+}
+
+std::shared_ptr<const Environment> environment_of(const EnvironmentData& data) {
+    // By its image, which it keeps, and the bytes of its numbers.
+    static SharedWork<std::tuple<const Image*, EnvironmentData::Layout, std::string>, Environment> all;
+    const auto make = [&] { return std::make_shared<const Environment>(data); };
+    if (!data.image) return make();
+    std::string numbers;
+    const auto add = [&](const auto& number) { numbers.append(reinterpret_cast<const char*>(&number), sizeof number); };
+    add(data.radiance), add(data.to_world.m);
+    if (data.portal) add(data.portal->corner), add(data.portal->side), add(data.portal->other);
+    return all.get({data.image.get(), data.layout, numbers}, make);
 }
 
 double Environment::row_solid_angle(std::uint32_t y) const {

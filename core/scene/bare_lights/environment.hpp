@@ -93,4 +93,7 @@ private:
     float bright_share_ = 0;  // of all light: what sample() goes by
 };
 
+/// Of that data; the one that another scene has, where it has one: what a map weighs is worked out once. Any thread.
+std::shared_ptr<const Environment> environment_of(const EnvironmentData& data);
+
 }  // namespace lightnet

@@ -17,7 +17,7 @@ Rgb Lights::power(std::size_t light) const {
     light -= near_.size();
     const float disk = pi * around_.radius * around_.radius;
     if (light < far_.size()) return far_.total(light) * disk;
-    const auto& sky = environments_[light - far_.size()];
+    const auto& sky = *environments_[light - far_.size()];
     const auto& portal = sky.portal();
     return sky.total() * (portal ? length(cross(portal->side, portal->other)) : disk);
 }
@@ -52,7 +52,7 @@ std::optional<Emission> Lights::emit(float choice, Vec2 position_sample, Vec2 di
         const Vec3 along = far_.shines_along(light, direction_sample);
         return weighted(through_ball(along, far_.total(light), position_sample), far_.group(light));
     }
-    const auto& sky = environments_[light - far_.size()];
+    const auto& sky = *environments_[light - far_.size()];
     return weighted(from_sky(sky, position_sample, direction_sample), environment_group_);
 }
 

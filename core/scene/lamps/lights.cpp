@@ -35,7 +35,7 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
     std::vector<double> light_of_maps;
     for (const auto& each : data.environments) {
         if (!is_wanted(data.environment_group)) break;
-        const Environment& environment = environments_.emplace_back(each);
+        const Environment& environment = *environments_.emplace_back(environment_of(each));
         has_environment_ |= !is_black(environment.total());
         has_portals_ |= environment.portal().has_value();
         const bool everywhere = !environment.has_map() && !environment.portal();
@@ -135,13 +135,13 @@ LightSample Lights::from_only_map(const SkyRadiance& seen) const {
 std::optional<LightSample> Lights::from_map(Vec3 from, float choice, Vec2 u) const {
     if (has_portals_) return from_skies(from, choice, u);
     const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
-    const SkyRadiance seen = environments_[maps_[map_index]].sample(u);
+    const SkyRadiance seen = environments_[maps_[map_index]]->sample(u);
     if (maps_.size() == 1) return from_only_map(seen);
     float density = share_of(map_ends_, map_index) * seen.pdf;
     Rgb radiance = constant_ + seen.radiance;
     for (std::size_t i = 0; i < maps_.size(); ++i) {
         if (i == map_index) continue;
-        const SkyRadiance other = environments_[maps_[i]].look(seen.direction);
+        const SkyRadiance other = environments_[maps_[i]]->look(seen.direction);
         density += share_of(map_ends_, i) * other.pdf;
         radiance += other.radiance;
     }
@@ -152,7 +152,7 @@ std::optional<LightSample> Lights::from_map(Vec3 from, float choice, Vec2 u) con
 // DECISIONS: portals-are-all-there-is
 std::optional<LightSample> Lights::from_skies(Vec3 from, float choice, Vec2 u) const {
     const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
-    const Environment& sky = environments_[maps_[map_index]];
+    const Environment& sky = *environments_[maps_[map_index]];
     const auto& portal = sky.portal();
     // not by `choice`, which is none where there is nothing else to choose from
     const bool half = portal && sky.has_map(), first_half = u.x < 0.5f, to_portal = portal && (!half || first_half);
@@ -167,7 +167,7 @@ std::optional<LightSample> Lights::from_skies(Vec3 from, float choice, Vec2 u) c
 }
 
 float Lights::density_of_sky(std::size_t map, const Ray& ray) const {
-    const Environment& sky = environments_[maps_[map]];
+    const Environment& sky = *environments_[maps_[map]];
     if (!sky.portal()) return sky.pdf(ray.direction);
     const float through = sky.portal()->density(ray.origin, ray.direction);
     return sky.has_map() ? 0.5f * (through + sky.pdf(ray.direction)) : through;
@@ -265,7 +265,7 @@ void Lights::sample_chosen(const PointsAsked& some, std::span<const LightChoice>
 
 void Lights::sample_map(const PointsAsked& some, LightSamples& samples) const {
     std::array<SkyRadiance, lanes> seen;
-    environments_[maps_[0]].sample(some.u, seen);
+    environments_[maps_[0]]->sample(some.u, seen);
     for (std::size_t k = 0; k < some.u.size(); ++k) {
         LightSample found = from_only_map(seen[k]);
         found.pdf *= share_of_far_;
@@ -301,7 +301,7 @@ float Lights::environment_pdf(const Ray& ray) const {
 Rgb Lights::environment(const Ray& ray) const {
     Rgb sum = constant_;
     for (const auto map : maps_)
-        if (environments_[map].shows(ray)) sum += environments_[map].radiance(ray.direction);
+        if (environments_[map]->shows(ray)) sum += environments_[map]->radiance(ray.direction);
     return sum;
 }
 
@@ -309,7 +309,7 @@ void Lights::look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen)
     if (maps_.size() == 1 && !has_portals_) {
         std::array<Vec3, lanes> directions;
         for (std::size_t i = 0; i < rays.size(); ++i) directions[i] = rays[i].direction;
-        environments_[maps_[0]].look(std::span(directions).first(rays.size()), seen);
+        environments_[maps_[0]]->look(std::span(directions).first(rays.size()), seen);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             seen[i].radiance = constant_ + seen[i].radiance;
             seen[i].pdf = share_of(map_ends_, 0) * seen[i].pdf * share_of_far_;
@@ -328,7 +328,7 @@ std::optional<SeenSun> Lights::sun(Vec3 direction) const {
 
 std::size_t Lights::memory() const {
     std::size_t bytes = lamps_.memory() + tree_.memory() + power_ends_.size() * sizeof(float);
-    for (const auto& environment : environments_) bytes += environment.memory();
+    for (const auto& environment : environments_) bytes += environment->memory();
     return bytes;
 }
 

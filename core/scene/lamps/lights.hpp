@@ -131,7 +131,7 @@ private:
     AreaLamps lamps_;
     std::vector<NearLight> near_;
     Suns far_;
-    std::vector<Environment> environments_;
+    std::vector<std::shared_ptr<const Environment>> environments_;
     std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled, as they have a map or a portal
     std::vector<float> map_ends_;      // share of the light of maps up to and with each
     LightTree tree_;                   // over lamps, then over what is near
