@@ -77,6 +77,7 @@ std::uint32_t FilmSteps::next_samples(Time now) const {
 }
 
 std::vector<Tile> FilmSteps::next(Time now) {
+    // DECISIONS: where-an-edit-goes
     if (quick_first_ && !coarse_ && !last_ && film_.samples_begun() == 0 && !limit_.over(now)) {
         coarse_.emplace(coarse_look(film_.format()));
         coarse_->expose(film_.scale());

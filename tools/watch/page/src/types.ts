@@ -85,6 +85,7 @@ export interface Edited {
     event: "picture" | "error" | "end";
     edit: number;
     samples?: number;
+    coarse?: boolean; // a first look
     finished?: boolean;
     seconds?: number;
     problems?: { file: string; line: number; what: string }[];
