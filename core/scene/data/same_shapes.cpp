@@ -52,6 +52,14 @@ bool has_plain_shapes(const SceneData& scene) {
 
 }  // namespace
 
+void pad_positions(SceneData& data) {
+    for (Shape& shape : data.shapes)
+        if (auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
+            mesh->positions.reserve(mesh->positions.size() + 1);
+            mesh->positions.emplace_back();
+        }
+}
+
 bool have_same_shapes(const SceneData& built, const SceneData& wanted) {
     if (!has_plain_shapes(built) || !has_plain_shapes(wanted)) return false;
     return std::ranges::equal(built.objects, wanted.objects, {}, &Object::shapes, &Object::shapes) &&

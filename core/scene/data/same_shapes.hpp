@@ -10,4 +10,7 @@ namespace lightnet {
 /// opacity, as more hangs on that than shapes.
 bool have_same_shapes(const SceneData& built, const SceneData& wanted);
 
+/// Puts one more behind each mesh's positions, as whoever reads several numbers at once may read beyond the last.
+void pad_positions(SceneData& data);
+
 }  // namespace lightnet

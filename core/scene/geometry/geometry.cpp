@@ -331,14 +331,6 @@ Geometry::Geometry(SceneData& data, const Shading& shading, const Options& optio
 
 Geometry::~Geometry() = default;
 
-void pad_positions(SceneData& data) {
-    for (Shape& shape : data.shapes)
-        if (auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-            mesh->positions.reserve(mesh->positions.size() + 1);
-            mesh->positions.emplace_back();
-        }
-}
-
 std::optional<Hit> Geometry::intersect(const Ray& ray) const {
     count(1);
     if (!is_traceable(ray, tracer_->farthest)) return lose(ray), std::nullopt;

@@ -16,9 +16,6 @@
 
 namespace lightnet {
 
-/// Puts one more behind each mesh's positions, as whoever reads several numbers at once may read beyond the last.
-void pad_positions(SceneData& data);
-
 /// The shapes of a scene and the instances of its objects, ready for rays. Every member may be called from any thread.
 /// A hit depends on its ray and on the shapes alone: not on the rays beside it, nor on how many threads the host has.
 /// Shapes of no material are not there; where others have holes, rays go through.
