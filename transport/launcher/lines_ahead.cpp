@@ -68,6 +68,7 @@ public:
     }
     void tick(Time now) override {
         line_->tick(now);
+        if (next_.line && now - next_.since > stays) next_.line.reset();
         if (next_.line) return next_.line->tick(now);
         if (gave_up_ || !line_->can_send() || now - begun_ < opens_after) return;
         try {
