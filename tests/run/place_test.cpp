@@ -46,6 +46,18 @@ Registry kinds() {
     return Registry(std::move(all));
 }
 
+Graph graph_of(const Registry& registry) {
+    return check({"test.lua",
+                  {{"scene", "Scene", {Value{std::string("none.pbrt")}}, {}, {"test.lua", 1}},
+                   {"slow", "SlowToPrepare", {}, {}, {"test.lua", 2}},
+                   {"image",
+                    "RayTracer",
+                    {Value{NodeRef{"slow"}}},
+                    {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{8.0}, Value{8.0}}, {}}}}},
+                    {"test.lua", 3}}}},
+                 registry);
+}
+
 /// Asks one thing after another, each when the one before has been answered; then ends the run.
 class OneByOne final : public Carrier {
 public:
@@ -81,19 +93,67 @@ public:
     Counters none;
 };
 
+/// Asks for a tile, tells of the plan in force some time later, and ends the run when that has led to a question.
+class LateToTell final : public Carrier {
+public:
+    explicit LateToTell(Plan plan) : plan_(std::make_shared<const Plan>(std::move(plan))) {}
+    bool ask(const PlaceAt&, Message&) override {
+        ++(told ? asked : asked_too_soon);
+        return true;
+    }
+    void reply(Message) override {}
+    std::optional<Message> receive() override {
+        Message message;
+        message.run = 1;
+        if (!std::exchange(asked_tile_, true)) {
+            message.node = image;
+            message.questions = std::make_shared<const std::vector<Tile>>(1, Tile{0, 0, 8, 8, 0, 1});
+            return message;
+        }
+        if (!told && waits_ > 3) {
+            told = true;
+            message.type = Message::Type::plan, message.plan = plan_;
+            return message;
+        }
+        if (asked + asked_too_soon == 0 && waits_ < 1000) return std::nullopt;
+        message.type = Message::Type::stop;
+        return message;
+    }
+    void wait(std::chrono::nanoseconds) override { ++waits_; }
+    void forget(const PlaceAt&) override {}
+    const Counters& counters() const override { return none_; }
+
+    static constexpr std::uint32_t image = 2;
+    bool told = false;
+    int asked = 0, asked_too_soon = 0;
+
+private:
+    std::shared_ptr<const Plan> plan_;
+    bool asked_tile_ = false;
+    int waits_ = 0;
+    Counters none_;
+};
+
+// The plan that it makes its nodes by may name places that are not prepared, and others may ask it before it has heard
+// of the one in force: what it would be answered then was in no picture.
+TEST(Place, AsksNobodyBeforeItIsToldWhomToAsk) {
+    const Registry registry = kinds();
+    const Graph graph = graph_of(registry);
+    const Network network{graph, registry, std::make_shared<const Scene>(test::furnace(0.5f, 1), SceneOptions{}), 1};
+    const Plan plan{{{"a", 0}, {"b", 0}}, {{}, {1}, {0}}};
+    Gauge gauge(graph.nodes.size(), asking_edges(graph, network.layers, registry).size());
+    LateToTell carrier(plan);
+    std::atomic<bool> stop{false};
+    std::atomic<std::uint64_t> progress{0};
+    Place(network, plan.places[0], plan, 1, {}, carrier, gauge, Place::Asks::when_told).serve(stop, progress);
+    EXPECT_EQ(carrier.asked_too_soon, 0);
+    EXPECT_GT(carrier.asked, 0);
+}
+
 // A shard takes as long as thousands of questions: askers would think that these take as long.
 TEST(Place, TellsHowLongAQuestionTakesWhateverShardsTook) {
     const Registry registry = kinds();
-    const Graph graph =
-        check({"test.lua",
-               {{"scene", "Scene", {Value{std::string("none.pbrt")}}, {}, {"test.lua", 1}},
-                {"slow", "SlowToPrepare", {}, {}, {"test.lua", 2}},
-                {"image",
-                 "RayTracer",
-                 {Value{NodeRef{"slow"}}},
-                 {{"scene", Value{NodeRef{"scene"}}}, {"film", Value{Table{{Value{8.0}, Value{8.0}}, {}}}}},
-                 {"test.lua", 3}}}},
-              registry);
+    const Graph graph = graph_of(registry);
     const Network network{graph, registry, std::make_shared<const Scene>(test::furnace(0.5f, 1), SceneOptions{}), 1};
     const Plan plan{{{"", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})};
     Gauge gauge(graph.nodes.size(), asking_edges(graph, network.layers, registry).size());

@@ -158,7 +158,6 @@ bool HostedRun::advance() {
                                                  PlaceThreads::AskedFrom::other_hosts);
         state_ = State::starting;
     } else if (places_ && places_->ready() && state_ == State::starting) {  // throws what a place has died of
-        places_->expect(assignment_.plan);                                  // it may have changed meanwhile
         state_ = State::serving;
     }
     return state_ != before;
@@ -179,10 +178,7 @@ void HostedRun::use(const Plan& plan) {
     if (serving()) places_->use(plan);
 }
 
-void HostedRun::expect(const Plan& plan) {
-    take_plan(plan);
-    if (serving()) places_->expect(plan);
-}
+void HostedRun::expect(const Plan& plan) { take_plan(plan); }
 
 void HostedRun::take_plan(const Plan& plan) {
     if (!fits(plan, assignment_.job.graph)) throw Error("the plan does not fit the graph");

@@ -106,7 +106,8 @@ void PlaceThreads::Threads::serve_place(std::uint32_t index, Life& life) {
     };
     const auto carrier = transport.carrier_of(index, at_fault);
     auto tracing = trace(*carrier);
-    Place place(*network, {host, index}, plan, run, rules, tracing ? tracing->carrier : *carrier, gauges[index]);
+    const auto asks = lives.size() > count ? Place::Asks::when_told : Place::Asks::by_plan;
+    Place place(*network, {host, index}, plan, run, rules, tracing ? tracing->carrier : *carrier, gauges[index], asks);
     if (tracing) place.trace(tracing->tracer);
     change(life, State::serving);
     place.serve(stop, life.progress);
@@ -188,10 +189,6 @@ void PlaceThreads::wait_until_ready() {
 
 void PlaceThreads::use(const Plan& plan) {
     threads_->tell(threads_->lives.size(), Message::Type::plan, std::make_shared<const Plan>(plan));
-}
-
-void PlaceThreads::expect(const Plan& plan) {
-    threads_->tell(threads_->count, Message::Type::plan, std::make_shared<const Plan>(plan));
 }
 
 void PlaceThreads::begin_to_stop() {

@@ -19,7 +19,8 @@ class PlaceThreads {
 public:
     /// Who asks the places: those of this process alone, or other hosts, too.
     enum class AskedFrom { here, other_hosts };
-    /// `transport` outlives it; `plan`: that places make their nodes by. Throws Error when there are not enough threads
+    /// `transport` outlives it; `plan`: that places make their nodes by. Where other hosts ask, it may name places that
+    /// are not prepared, so nobody is asked by it: see use(). Throws Error when there are not enough threads
     /// to be had; none is left behind then.
     PlaceThreads(PlaceTransport& transport, std::shared_ptr<const Network> network, std::uint64_t run, std::string host,
                  std::uint32_t count, Plan plan, Tuning rules, AskedFrom askers = AskedFrom::here);
@@ -34,8 +35,6 @@ public:
     void wait_until_ready();
     /// Tells every place who answers for which node from now on. Only when they are ready.
     void use(const Plan& plan);
-    /// Tells every place who is going to, as far as is known: nobody is asked by it yet. Likewise.
-    void expect(const Plan& plan);
     /// Tells all places to stop, and returns at once.
     void begin_to_stop();
     /// All threads are done with their work.

@@ -13,13 +13,18 @@ std::uint64_t nanoseconds_since(std::chrono::steady_clock::time_point begun) {
     return static_cast<std::uint64_t>(std::chrono::nanoseconds(std::chrono::steady_clock::now() - begun).count());
 }
 
+Plan without_holders(Plan plan) {
+    for (auto& holders : plan.places_of) holders.clear();
+    return plan;
+}
+
 }  // namespace
 
 Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, const Tuning& tuning,
-             Carrier& carrier, Gauge& gauge)
+             Carrier& carrier, Gauge& gauge, Asks asks)
     : network_(network),
       me_(me),
-      plan_(plan),
+      plan_(asks == Asks::by_plan ? plan : without_holders(plan)),
       run_(run),
       tuning_(tuning),
       carrier_(carrier),
@@ -29,7 +34,7 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       inbox_({network, tuning_, gauge, counters_}),
       ports_({network, me_, run, tuning_, carrier, gauge, counters_, fibers_, wake(),
               [this]() -> Assembly& { return assembly_; }, [this] { pause(); }},
-             plan),
+             plan_),
       locks_(fibers_, wake(), reply()),
       meter_(
           gauge, asking_edges(network.graph, network.layers, network.registry),
@@ -46,8 +51,8 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
         return found != learning_.end() && found->second == node;
     });
     fibers_.show(gauge.shown(), Gauge::asking);
-    for (std::size_t node = 0; node < plan_.places_of.size(); ++node)
-        if (holds(plan_, me_, node)) assemble(node);
+    for (std::size_t node = 0; node < plan.places_of.size(); ++node)
+        if (holds(plan, me_, node)) assemble(node);
 }
 
 std::function<void(Fibers::Fiber*)> Place::wake() {
@@ -81,37 +86,39 @@ void Place::use(const Plan& plan) {
     inbox_.cancel(lost_names(before, plan));
 }
 
+void Place::begin(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress) {
+    service_ = {.stop = &stop, .progress = &progress, .begun = Clock::now()};
+    gauge_.set_activity(Gauge::asking);
+}
+
 void Place::serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress) {
-    stop_ = &stop;
-    progress_ = &progress;
     const LookingAt looking(&stop);
     const TellingOfLostRays telling(assembly_.keeper_of_lost_rays());
-    const auto begun = Clock::now();
-    gauge_.set_activity(Gauge::asking);
+    begin(stop, progress);
     try {
-        while (!stopping_ && !stop.load(std::memory_order_relaxed)) work_once(begun);
+        while (!service_.stopping && !stop.load(std::memory_order_relaxed)) work_once();
     } catch (const Cancelled&) {  // outside of fibers: while a plan is taken
     }
-    stopping_ = true;
-    record_.lived_ns = nanoseconds_since(begun);
+    service_.stopping = true;
+    record_.lived_ns = nanoseconds_since(service_.begun);
     fibers_.cancel_all();
     gauge_.set_activity(Gauge::idle);
 }
 
 // For those who watch: a place tells its counters when it has stopped, which may be hours from now.
-void Place::tell_so_far(Clock::time_point begun) {
+void Place::tell_so_far() {
     gauge_.rays.set(Scene::rays_of_this_thread() - rays_before_);
-    gauge_.lived_ns.set(nanoseconds_since(begun));
+    gauge_.lived_ns.set(nanoseconds_since(service_.begun));
     gauge_.waited_ns.set(record_.waited_ns);
     gauge_.idle_ns.set(record_.idle_ns);
 }
 
-void Place::work_once(Clock::time_point begun) {
+void Place::work_once() {
     take_in();
-    tell_so_far(begun);
+    tell_so_far();
     ports_.flush(false);
     if (!step()) {
-        if (!ports_.flush(true) && !stopping_) wait();
+        if (!ports_.flush(true) && !service_.stopping) wait();
         return;
     }
     // Each look at the sockets costs system calls: what has come together is worked off together.
@@ -178,7 +185,7 @@ void Place::answer(std::vector<Message>& asks) {
         reply.load = load;
         reply.route = inbox_.let_go(work.names[i]);
         gauge_.pulse.add(1);
-        progress_->fetch_add(1, std::memory_order_relaxed);  // before: the run may end with this reply
+        service_.progress->fetch_add(1, std::memory_order_relaxed);  // before: the run may end with this reply
         carrier_.reply(std::move(reply));
     }
 }
@@ -210,7 +217,7 @@ void Place::take(Message message) {
             if (message.run == run_ && message.plan) use(*message.plan);
             return;
         case Message::Type::stop:
-            if (message.run == run_) stopping_ = true;
+            if (message.run == run_) service_.stopping = true;
             return;
     }
 }
@@ -218,7 +225,7 @@ void Place::take(Message message) {
 // Other threads may call it for us.
 void Place::look() const {
     gauge_.pulse.add(1);
-    if (stop_ && stop_->load(std::memory_order_relaxed)) throw Cancelled{};
+    if (service_.stop && service_.stop->load(std::memory_order_relaxed)) throw Cancelled{};
 }
 
 // Called by running work at every ask of a node of this place: a busy place still serves others.
@@ -230,7 +237,7 @@ void Place::pause() {
     gauge_.pulse.add(1);
     take_in();
     look();
-    if (stopping_) throw Cancelled{};
+    if (service_.stopping) throw Cancelled{};
     ports_.flush(false);
     if (ready_.empty() && !inbox_.has_next(Role::light)) return;
     paused_.push_back(fiber);

@@ -36,8 +36,11 @@ namespace lightnet {
 /// see Rounds. So the nodes that ask nobody always finish, then those that ask only them, and so on.
 class Place {
 public:
+    /// By what others are asked: the plan that the place makes its nodes by, or nothing before it is told of one that
+    /// is in force. The first may name places that are not prepared.
+    enum class Asks { by_plan, when_told };
     Place(const Network& network, const PlaceAt& me, const Plan& plan, std::uint64_t run, const Tuning& tuning,
-          Carrier& carrier, Gauge& gauge);
+          Carrier& carrier, Gauge& gauge, Asks asks = Asks::by_plan);
     ~Place();
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
@@ -47,6 +50,10 @@ public:
     /// Serves until a stop message arrives or `stop` is set. Once, on the thread that made the place. Counts the
     /// bundles and tiles that it answers in `progress`: a sign of life for other threads.
     void serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress);
+    /// The same in turns, for who has several places in one thread: after begin(), each does what is to be done for a
+    /// moment, and waits at its carrier where that is nothing.
+    void begin(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress);
+    void work_once();
     Counters counters() const;
 
 private:
@@ -57,14 +64,13 @@ private:
     void use(const Plan& plan);
     void take_in();
     void take(Message message);
-    void work_once(Clock::time_point begun);
     bool step();
     bool start_next(bool images);
     void answer(std::vector<Message>& asks);
     void pause();
     void look() const;
     void wait();
-    void tell_so_far(Clock::time_point begun);
+    void tell_so_far();
     PlaceRecord record() const;
     std::string my_name() const;
     Whereabouts whereabouts() const;
@@ -78,9 +84,12 @@ private:
     Gauge& gauge_;
     Counters counters_;
     std::uint64_t rays_before_;
-    const std::atomic<bool>* stop_ = nullptr;
-    std::atomic<std::uint64_t>* progress_ = nullptr;
-    bool stopping_ = false;
+    struct Service {
+        const std::atomic<bool>* stop = nullptr;
+        std::atomic<std::uint64_t>* progress = nullptr;
+        Clock::time_point begun{};
+        bool stopping = false;
+    } service_;
 
     Fibers fibers_;
     std::deque<Fibers::Fiber*> ready_;   // whose answers are there
