@@ -54,6 +54,21 @@ protected:
     Counters counters;
 };
 
+// Else who answers would take a question of a place that was started anew for one of the place before it, and the other
+// way round.
+TEST_F(RemoteChannelTest, HasNumbersOfItsOwnForBundlesOfOnePlaceAfterTheOther) {
+    RemoteChannel<Query> before{carrier, {.run = 1, .node = 3, .first_bundle = 1000}, {}, counters};
+    RemoteChannel<Query> after{carrier, {.run = 1, .node = 3, .first_bundle = 5000}, {}, counters};
+    EXPECT_TRUE(before.send(bundle(2)) && after.send(bundle(2)));
+    EXPECT_NE(carrier.asked[0].bundle, carrier.asked[1].bundle);
+    auto late = reply_for(carrier.asked[0]), reply = reply_for(carrier.asked[1]);
+    after.arrived(late);
+    after.arrived(reply);
+    ASSERT_EQ(owner.answers.size(), 2u);
+    EXPECT_NE(owner.answers[0], 2u) << "of the place before: nobody knows that number here";
+    EXPECT_EQ(owner.answers[1], 2u);
+}
+
 TEST_F(RemoteChannelTest, BringsAnswersAndTheLoadOfTheAnswererBack) {
     RemoteChannel<Query> channel{carrier, {1, 0, 3, {"tcp://onyx1:7777", 0}, 5, 9}, {}, counters};
     EXPECT_TRUE(channel.send(bundle(5)));

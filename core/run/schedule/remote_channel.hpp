@@ -22,13 +22,14 @@ public:
     /// From whom to whom.
     struct Address {
         std::uint64_t run = 0;
-        std::uint32_t channel = 0;    // number among the channels of this place
-        std::uint32_t node = 0;       // who is asked
-        PlaceAt place;                // where; any_place: wherever its host chooses
-        std::uint64_t process = 0;    // see Channel
-        std::uint64_t asker = 0;      // name_of() the place that asks; 0: the launcher
-        bool reserve = false;         // see Channel
-        bool within_process = false;  // see Channel
+        std::uint32_t channel = 0;       // number among the channels of this place
+        std::uint32_t node = 0;          // who is asked
+        PlaceAt place;                   // where; any_place: wherever its host chooses
+        std::uint64_t process = 0;       // see Channel
+        std::uint64_t asker = 0;         // name_of() the place that asks; 0: the launcher
+        bool reserve = false;            // see Channel
+        bool within_process = false;     // see Channel
+        std::uint64_t first_bundle = 0;  // on its way, a bundle has its number beyond this one
     };
     RemoteChannel(Carrier& carrier, Address address, Credit credit, Counters& counters)
         : carrier_(carrier), address_(std::move(address)), to_(address_.place), credit_(credit), counters_(counters) {}
@@ -44,7 +45,7 @@ public:
         message.type = Message::Type::ask;
         message.run = address_.run;
         message.channel = address_.channel;
-        message.bundle = bundle.number;
+        message.bundle = address_.first_bundle + bundle.number;
         message.node = address_.node;
         message.width = bundle.width;
         message.asker = address_.asker;
@@ -74,7 +75,7 @@ public:
             ++counters_.late_replies;
             return;
         }
-        const Bundle<Question> bundle{nullptr, owner_, message.bundle, message.width};
+        const Bundle<Question> bundle{nullptr, owner_, message.bundle - address_.first_bundle, message.width};
         if (message.type == Message::Type::failure) {
             if (message.trouble.host.empty()) message.trouble.host = address_.place.host;
             return owner_->failed(bundle, message.trouble);

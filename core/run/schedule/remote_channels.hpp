@@ -35,6 +35,9 @@ public:
         std::string host;
         std::uint64_t name = 0;   // name_of() the place; 0: the launcher
         std::uint32_t first = 0;  // number of the first channel: where others share the carrier
+        /// Of bundles, on their way: who takes the place of one that was lost has others, as somebody may still be at
+        /// what that had asked.
+        std::uint64_t first_bundle = 0;
     };
     /// `counters` must outlive the channels.
     RemoteChannels(Carrier& carrier, std::uint64_t run, Asker asker, Counters& counters)
@@ -94,7 +97,7 @@ private:
         channels_.push_back(std::make_unique<RemoteChannel<Question>>(
             carrier_,
             typename RemoteChannel<Question>::Address{run_, number, edge.node, at, process, asker_.name,
-                                                      at == edge.reserve, at.host == asker_.host},
+                                                      at == edge.reserve, at.host == asker_.host, asker_.first_bundle},
             edge.credit, counters_));
         return number;
     }
