@@ -1,10 +1,13 @@
 // The coordinator, with places that the test plays.
 #include "core/run/master/coordinator.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/network/graph/check.hpp"
 #include "core/network/light/mapped.hpp"
@@ -70,6 +73,54 @@ TEST(Coordinator, PreparesNodesThatDoNotAskEachOtherAtTheSameTime) {
     lead();
     EXPECT_EQ(next(Step::Kind::prepare, learned).place.host, "a");
     EXPECT_TRUE(places.asked.empty());
+}
+
+// A node leaves a host in the middle of its shards, is let go of there, and comes back: it begins anew, and can do no
+// shards before it has come to them again.
+TEST(Coordinator, AsksNoShardsOfACopyThatHasLetGo) {
+    const Registry kinds = test::with_learner();
+    const Graph graph = mapping(kinds);
+    const auto caustics = graph.find("caustics").value();
+    const Plan both{{{"a", 0}, {"b", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0, 1})};
+    Plan moved = both;
+    moved.places_of[caustics] = {0};
+    ByHand places;
+    Coordinator::Options options;
+    options.run = 1;
+    options.graph = &graph;
+    options.registry = &kinds;
+    options.let_go_after = 0.001;
+    Coordinator coordinator(options, places);
+    const auto lead = [&] { EXPECT_FALSE(coordinator.prepare(std::chrono::milliseconds(2))); };
+    // What host b is asked now; shards are answered at once, those of a never.
+    const auto asked_of_b = [&] {
+        std::vector<Step::Kind> kinds_of_b;
+        while (!places.asked.empty()) {
+            auto asked = places.take();
+            if (asked.place.host != "b") continue;
+            kinds_of_b.push_back(asked.step()->kind);
+            if (!asked.of_kind(Step::Kind::shards)) continue;
+            ShardJoiner joined(asked.step()->count);
+            for (std::uint32_t i = 0; i < asked.step()->count; ++i) joined.add({});
+            auto reply = reply_to(asked.message);
+            reply.data = joined.finish();
+            places.arrived.push_back(std::move(reply));
+        }
+        return kinds_of_b;
+    };
+
+    coordinator.propose(both);
+    for (int i = 0; i < 2; ++i) places.answer(places.take(), StepReport{StepReport::Kind::map, 0, 100});
+    lead();
+    EXPECT_THAT(asked_of_b(), testing::Each(Step::Kind::shards));
+    coordinator.propose(moved);
+    std::vector<Step::Kind> asked;
+    for (int patience = 0; patience < 1000 && std::ranges::count(asked, Step::Kind::leave) == 0; ++patience)
+        lead(), asked = asked_of_b();
+    ASSERT_THAT(asked, testing::Contains(Step::Kind::leave));
+    coordinator.propose(both);
+    lead();
+    EXPECT_THAT(asked_of_b(), testing::ElementsAre(Step::Kind::prepare));
 }
 
 // A host leaves after all tiles of a rehearsal are rendered. The rehearsal begins again; what another host still says

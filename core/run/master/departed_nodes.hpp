@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/run/master/prepare_state.hpp"
+#include "core/run/master/shard_work.hpp"
 #include "core/run/master/step_line.hpp"
 
 namespace lightnet {
@@ -14,7 +15,8 @@ namespace lightnet {
 class DepartedNodes {
 public:
     /// `after`: seconds.
-    DepartedNodes(PrepareState& state, StepLine& steps, double after) : state_(state), steps_(steps), after_(after) {}
+    DepartedNodes(PrepareState& state, StepLine& steps, ShardWork& shards, double after)
+        : state_(state), steps_(steps), shards_(shards), after_(after) {}
 
     /// Call it now and then.
     void let_go() {
@@ -27,13 +29,16 @@ public:
             const bool asked = holds(state_.in_force, copy.place, copy.node);
             if (asked) follower.left = now;
             if (asked || now - follower.left < after_) continue;
-            if (steps_.send({copy, 0, {.kind = Step::Kind::leave}})) state_.followers.erase(std::prev(known));
+            if (!steps_.send({copy, 0, {.kind = Step::Kind::leave}})) continue;
+            shards_.let_go(copy);
+            state_.followers.erase(std::prev(known));
         }
     }
 
 private:
     PrepareState& state_;
     StepLine& steps_;
+    ShardWork& shards_;
     double after_;
     double looked_ = 0;  // when last
 };

@@ -23,7 +23,7 @@ PrepareLead::PrepareLead(PrepareOptions options, Carrier& carrier, Carrier& mast
       steps_(options.run, carrier),
       shards_({options.run, options.verify, state_, calls_, carrier}),
       rehearsals_({options.run, options.width, *options.registry, state_, calls_, steps_, masters, epoch}),
-      departed_(state_, steps_, options.let_go_after),
+      departed_(state_, steps_, shards_, options.let_go_after),
       said_(options.say) {
     if (has_locks(*options.graph, *options.registry))
         locks_.emplace([this](const PlaceAt& place, const Step& step) { return steps_.send({{place, 0}, 0, step}); });

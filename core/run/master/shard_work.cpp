@@ -91,6 +91,16 @@ void ShardWork::keep() {
     }
 }
 
+void ShardWork::let_go(const NodeCopy& copy) {
+    for (auto& [of, work] : works_) {
+        const auto known = work.lines.extract(copy);  // until the dealer knows
+        if (!known) continue;
+        close(known.mapped());
+        use_lines(work);
+        throw_error_of(work.dealer);
+    }
+}
+
 // What nobody else can be asked about waits for those who may come.
 void ShardWork::deal(std::size_t position) {
     const auto node = at_.state.order.node(position);

@@ -36,6 +36,8 @@ public:
     /// Another plan is proposed. Copies that it has not got answer what they have and are asked no more, or are lost
     /// with their place. Throws Error when a shard seems to have killed them.
     void keep();
+    /// A copy is told to let go of all that it has. It may come back, and then has to come to each call again.
+    void let_go(const NodeCopy& copy);
     /// Sends what is due at a position. Throws Error when its shards can't be done.
     void deal(std::size_t position);
     /// A reply. True: all shards of its call are there now. Throws Error when shards can't be done.
