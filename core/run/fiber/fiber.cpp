@@ -19,17 +19,18 @@
 #endif
 
 namespace lightnet {
+
+// Reading the clock costs as much as the switch itself, so the switches count the processor's own ticks; the clock says
+// how long one is.
+std::uint64_t processor_ticks() { return __rdtsc(); }
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Reading the clock costs as much as the switch itself, so the switches count the processor's own ticks; the clock says
-// how long one is.
-std::uint64_t ticks_now() { return __rdtsc(); }
-
 // The counters of two processors may differ by a little.
 std::uint64_t ticks_since(std::uint64_t then) {
-    const auto now = ticks_now();
+    const auto now = processor_ticks();
     return now > then ? now - then : 0;
 }
 
@@ -107,7 +108,7 @@ struct Fibers::Shared {
     const void* outside_lowest = nullptr;
     std::size_t outside_size = 0;
     const Clock::time_point began = Clock::now();
-    const Ticks began_ticks = ticks_now();
+    const Ticks began_ticks = processor_ticks();
     Ticks stint = 0, stint_ran = 0;
     std::atomic<std::uint16_t>* doing = nullptr;
     std::uint16_t outside_doing = 0;
@@ -178,7 +179,7 @@ void Fibers::switch_to(Fiber* fiber) {
     fiber->parked = false;
     shared_->running = {fiber->stack, fiber->owner};
     if (shared_->doing) shared_->doing->store(fiber->doing, std::memory_order_relaxed);
-    const Ticks began = fiber->entered = ticks_now();
+    const Ticks began = fiber->entered = processor_ticks();
     shared_->exceptions = std::exchange(ExceptionState::here(), fiber->exceptions);
     shared_->view.leave(fiber->stack.lowest, fiber->stack.size);
 #if defined(__SANITIZE_THREAD__)
@@ -188,7 +189,8 @@ void Fibers::switch_to(Fiber* fiber) {
     fiber->inside = std::move(fiber->inside).resume();
     shared_->view.entered();
     fiber->exceptions = std::exchange(ExceptionState::here(), shared_->exceptions);
-    const Ticks ended = std::max(ticks_now(), fiber->entered);  // the counters of two processors may differ by a little
+    const Ticks ended =
+        std::max(processor_ticks(), fiber->entered);  // the counters of two processors may differ by a little
     fiber->ran += ended - fiber->entered;
     shared_->stint_ran += ended - std::min(began, ended);
     if (shared_->doing) {  // nobody else writes it, so no exchange is needed, which would cost more
@@ -276,7 +278,7 @@ bool Fibers::stint_over() const { return shared_->stint_ran >= shared_->stint; }
 void Fibers::give_time_to(Fiber* other) {
     other->ran += ticks_of(current_);
     current_->ran = 0;
-    current_->entered = ticks_now();
+    current_->entered = processor_ticks();
 }
 
 void Fibers::show(std::atomic<std::uint16_t>& doing, std::uint16_t outside) {

@@ -21,6 +21,10 @@ inline constexpr std::size_t usual_stack_size = 256 * 1024;
 
 class FiberWatcher;
 
+/// The processor's own counter, which says how long fibers run. A program may have another in its place: one whose time
+/// is simulated.
+[[gnu::weak]] std::uint64_t processor_ticks();
+
 /// All fibers of one thread. Fibers never change threads. Work runs until it parks or ends; then another may run.
 class Fibers {
 public:

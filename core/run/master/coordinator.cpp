@@ -4,6 +4,12 @@
 #include <memory>
 
 namespace lightnet {
+namespace {
+
+// At once: a rehearsal that is broken off meanwhile, as nobody holds its node any more, may never come to its end.
+constexpr auto most_rehearsing = std::chrono::milliseconds(50);
+
+}  // namespace
 
 bool Coordinator::prepare(std::chrono::nanoseconds most) {
     const auto end = std::chrono::steady_clock::now() + most;
@@ -11,7 +17,7 @@ bool Coordinator::prepare(std::chrono::nanoseconds most) {
     do {
         lead_.advance();
         if (lead_.state().all_done()) return true;
-        if (!lead_.render(left)) {
+        if (!lead_.render(std::min<std::chrono::nanoseconds>(left, most_rehearsing))) {
             wait(std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(20)));
             // Nobody else waits for any of it: no master renders.
             while (receive()) {

@@ -22,12 +22,17 @@ bool may_rehearse(const Network& network, std::size_t node) {
     return false;
 }
 
+// Bundles take longer than a nanosecond, so numbers that begin with it are those of no place before, of this name.
+std::uint64_t time_of_beginning() {
+    return static_cast<std::uint64_t>(PlacePorts::Clock::now().time_since_epoch() / std::chrono::nanoseconds(1));
+}
+
 }  // namespace
 
 PlacePorts::PlacePorts(Lent lent, const Plan& plan)
     : at_(std::move(lent)),
       plan_(plan),
-      channels_(at_.carrier, at_.run, {at_.me.host, name_of(at_.me)}, at_.counters) {}
+      channels_(at_.carrier, at_.run, {at_.me.host, name_of(at_.me), 0, time_of_beginning()}, at_.counters) {}
 
 Port* PlacePorts::port_to(std::size_t node, std::size_t width) {
     const Key key{node, width};
@@ -80,7 +85,8 @@ Port* PlacePorts::bundle_port_to(Key key) {
 MultiplexerRules PlacePorts::multiplexer_rules(std::size_t node) {
     MultiplexerRules rules;
     rules.scheduling.strategy = plan_.strategy_of(node);
-    rules.scheduling.double_tail = !may_rehearse(at_.network, node);
+    const bool rehearses = may_rehearse(at_.network, node);
+    rules.scheduling.double_tail = !rehearses;
     rules.scheduling.tail_part = 0.01;  // others want answers, too
     rules.at_fault = [this](const Failure& failure) { at_.carrier.take_out(failure.host, failure.why); };
     rules.checks = SpotChecks(at_.tuning.verify, secret_number());
@@ -89,7 +95,8 @@ MultiplexerRules PlacePorts::multiplexer_rules(std::size_t node) {
         if (!answers_alone(plan_, at_.network.graph, node)) lie.host.clear();
         at_.carrier.doubt(lie);
     };
-    if (at_.tuning.check_answers) rules.differs = [](const std::string& what) { throw Error(what); };
+    // What was asked in a rehearsal, and again as it was late, may be answered otherwise when that is over.
+    if (at_.tuning.check_answers && !rehearses) rules.differs = [](const std::string& what) { throw Error(what); };
     return rules;
 }
 
