@@ -73,11 +73,12 @@ TEST(MovesRun, GoesOnElsewhereWhereAHostBecomesSlow) {
     std::vector<Daemon> daemons;
     const Folder own[3];
     for (const auto& one : own) daemons.emplace_back(one);
-    const auto out = folder / "moved.exr", layout = folder / "layout.lua", trace = folder / "trace.json";
+    const auto out = folder / "moved.exr", layout = folder / "layout.lua", trace = folder / "trace.json",
+               page = folder / "moved.html";
     Process run(launch_words(graph, out,
                              {"--hosts", daemons[0].endpoint + "," + daemons[1].endpoint + "," + daemons[2].endpoint,
                               "--layout", "auto=" + report, "--layout-memory", memory, "--layout-out", layout,
-                              "--trace", trace, "--progress", "plain"}));
+                              "--trace", trace, "--report", page, "--progress", "plain"}));
     const auto end = std::chrono::steady_clock::now() + slowdown * std::chrono::seconds(30);
     while (!std::filesystem::exists(layout) && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -92,6 +93,7 @@ TEST(MovesRun, GoesOnElsewhereWhereAHostBecomesSlow) {
         EXPECT_THAT(moved.said, testing::HasSubstr(node.get<std::string>()));
     EXPECT_GE(told["moves"][0]["gain"], 0.2);
     EXPECT_THAT(text_of_file(trace), testing::HasSubstr("\"cat\":\"move\""));
+    EXPECT_THAT(text_of_file(page), testing::HasSubstr("\"moves\":[{\"gain\":"));
     const auto drawn =
         run_program({program("lightnet"), "dot", graph, "--moves", folder.write("moved.run.json", moved.report)}, "",
                     slowdown * std::chrono::seconds(60));

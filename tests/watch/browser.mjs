@@ -1,6 +1,7 @@
 // A browser watches a run on two daemons: browser.mjs PROGRAMS FOLDER [PICTURES]. See browser.sh.
 import { spawn, spawnSync } from "node:child_process";
 import { createRequire } from "node:module";
+import { readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import assert from "node:assert/strict";
@@ -35,10 +36,8 @@ const daemon = async () => {
 };
 const render = (daemons, name, more) => {
     const hosts = join(folder, "lab.lua");
-    return import("node:fs").then(({ writeFileSync }) => {
-        writeFileSync(hosts, daemons.map(({ endpoint }) => `place "${endpoint}" {}\n`).join(""));
-        return start("lightnet", ["run", graph, "--hosts", hosts, "--watch", "-o", join(folder, name), ...more]);
-    });
+    writeFileSync(hosts, daemons.map(({ endpoint }) => `place "${endpoint}" {}\n`).join(""));
+    return start("lightnet", ["run", graph, "--hosts", hosts, "--watch", "-o", join(folder, name), ...more]);
 };
 async function shot(page, name, full = true) {
     if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: full });
@@ -179,6 +178,7 @@ try {
     assert.match(await report.getByTestId("edges").textContent(), /lighting → bounce/);
     assert(sum(await pixels(report)) > 128 * 128 * 255, "the report has a picture");
     await report.getByTestId("forecast").waitFor();
+    assert.equal(await report.getByTestId("moves").count(), 0, "nothing moved");
     const with_noise = await pixels(report);
     await report.getByTestId("cleaned").check();
     await pause(400);
@@ -188,6 +188,20 @@ try {
     assert.notDeepEqual(without, with_noise);
     await report.getByTestId("clean-from").fill("0.5");
     await shot(report, "report-light-1400");
+    // The same report, had nodes moved.
+    const written = readFileSync(join(folder, "y.html"), "utf8");
+    const frozen = /(<script type="application\/json" id="frozen">)(.*?)(<\/script>)/s;
+    const had_moved = JSON.parse(written.match(frozen)[2]);
+    had_moved.state.moves = [{ seconds: 61.5, gain: 0.31, nodes: ["bounce goes from one to two", "soft goes to two"] },
+        { seconds: 90, gain: 1, nodes: ["direct goes to two"] }];
+    writeFileSync(join(folder, "moved.html"), written.replace(frozen, (_, begin, __, end) => begin + JSON.stringify(had_moved) + end));
+    const moved = await open(`file://${join(folder, "moved.html")}`);
+    const rows = await moved.getByTestId("moves").locator("tr").allTextContents();
+    assert.equal(rows.length, 2);
+    for (const part of ["bounce goes from one to two", "soft goes to two", "is to take 31 % less time"]) assert(rows[0].includes(part), rows[0]);
+    assert(rows[1].includes("nobody had it any more"), rows[1]);
+    await shot(moved, "moves-light-1400");
+
     const report_dark = await open(`file://${join(folder, "run.html")}`, { colorScheme: "dark", viewport: { width: 600, height: 900 } });
     await report_dark.waitForSelector("text=/is lost/");
     await shot(report_dark, "report-dark-600");

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "core/network/graph/layout.hpp"
 #include "tests/support/parse.hpp"
@@ -92,6 +94,23 @@ TEST(WatchedStateJson, HasTheForecastOfARunThatIsOver) {
     EXPECT_EQ(forecast["per_host"], 8);
     EXPECT_EQ(forecast["seconds"], 5.5);
     EXPECT_THAT(forecast["rows"], ElementsAre(ElementsAre(2, 5, 2, 9, 0.9, "node 'lighting'")));
+}
+
+// As the run's report says it.
+TEST(WatchedStateJson, TellsWhichNodesMovedWhenAndWhy) {
+    WatchedState state;
+    EXPECT_FALSE(nlohmann::json::parse(state_json(state, small_graph())).contains("moves"));
+    state.moves = {{1, 2.5, 0.25, {"direct goes from a to b", "both goes from a to c"}},
+                   {2, 7, 1, {"direct goes to c"}}};
+    const auto moves = nlohmann::json::parse(state_json(state, small_graph()))["moves"];
+    ASSERT_EQ(moves.size(), 2u);
+    EXPECT_EQ(moves[0]["seconds"], 2.5);
+    EXPECT_EQ(moves[0]["gain"], 0.25);
+    EXPECT_THAT(moves[0]["nodes"], ElementsAre("direct goes from a to b", "both goes from a to c"));
+    std::ifstream file(std::string(LIGHTNET_SOURCE_DIR) + "/docs/schemas/run.schema.json");
+    const auto schema = nlohmann::json::parse(file)["properties"]["moves"]["items"]["properties"];
+    ASSERT_EQ(moves[0].size(), schema.size());
+    for (const auto& [key, value] : moves[0].items()) EXPECT_TRUE(schema.contains(key)) << key;
 }
 
 TEST(WatchedStateJson, StaysSmallWithAThousandHosts) {

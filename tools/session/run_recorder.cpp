@@ -100,7 +100,7 @@ void RunRecorder::name_run(std::uint64_t number) { set("run", public_name_of_run
 
 void RunRecorder::show_outcome(const std::string& outcome, ForecastCurve forecast) {
     if (!watcher_) return;
-    watcher_->progress(steps_.done(), {});
+    watcher_->progress(steps_.done(), {}, report_.moves);
     watcher_->finish(steps_.picture(), outcome, std::move(forecast));
 }
 
@@ -173,7 +173,7 @@ std::uint64_t RunRecorder::work_shown() const {
 
 void RunRecorder::show(const Watcher::Hosts& hosts) {
     const bool renders = !report_.phases.empty() && report_.phases.back().name == "render";
-    watcher_->progress(steps_.done(), renders ? progress_.seconds_left(Clock::now()) : std::nullopt);
+    watcher_->progress(steps_.done(), renders ? progress_.seconds_left(Clock::now()) : std::nullopt, report_.moves);
     watcher_->look(steps_.at_work(), hosts);
     for (const auto& line : watcher_->news()) say(line);
 }

@@ -224,6 +224,11 @@ std::string state_json(const WatchedState& state, const Graph& graph) {
                           {"up", {seen->up.x, seen->up.y, seen->up.z}},
                           {"fov", seen->fov}};
     if (!state.forecast.rows.empty()) json["forecast"] = forecast_json(state.forecast);
+    for (const auto& move : state.moves) {
+        auto& moves = json["moves"];
+        if (&move == &state.moves.front()) moves = JsonTree::list();
+        moves.push_back({{"seconds", move.seconds}, {"gain", move.gain}, {"nodes", move.nodes}});
+    }
     if (state.left) json["left"] = std::round(*state.left * 10) / 10;
     json["hosts"] = hosts_json(state.hosts);
     add_figures(json, state, graph);

@@ -11,6 +11,7 @@
 #include "core/network/graph/kind.hpp"
 #include "core/run/assembly/activity.hpp"
 #include "tools/forecast/forecast_curve.hpp"
+#include "tools/support/run_report.hpp"
 #include "tools/watch/viewpoint.hpp"
 #include "transport/launcher/cluster.hpp"
 
@@ -35,8 +36,9 @@ struct WatchedRun {
 struct WatchedState {
     double seconds = 0;  // since it began
     std::string phase;
-    double done = 0;               // 0 … 1
-    std::optional<double> left{};  // seconds; none: not known
+    double done = 0;                  // 0 … 1
+    std::optional<double> left{};     // seconds; none: not known
+    std::vector<MoveReport> moves{};  // of nodes, so far
     std::vector<HostState> hosts;
     Doings doing;
     std::vector<Tile> in_flight;

@@ -61,8 +61,12 @@ public:
     void say(const std::string& text);
     /// What a node does while it prepares.
     void preparing(const PrepareProgress& progress);
-    /// How much is there, 0 … 1, and how many seconds are left; none: not known. Shown by the next look.
-    void progress(double done, std::optional<double> left) { state_.done = done, state_.left = left; }
+    /// How much is there, 0 … 1, how many seconds are left (none: not known), and which nodes have moved so far. Shown
+    /// by the next look.
+    void progress(double done, std::optional<double> left, const std::vector<MoveReport>& moves) {
+        state_.done = done, state_.left = left;
+        if (moves.size() != state_.moves.size()) state_.moves = moves;
+    }
     void handed_out(const std::vector<Tile>& tiles);
     /// A tile has come, and is in the film.
     void taken(const Tile& tile);

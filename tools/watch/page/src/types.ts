@@ -65,6 +65,13 @@ export interface Forecast {
     rows: [number, number, number, number, number, string][]; // places, seconds, from, to, efficiency, what is busiest
 }
 
+/// Nodes that went to other hosts: as in run.schema.json.
+export interface Move {
+    seconds: number; // since the run began
+    gain: number; // predicted, of the time that was left; 1: nobody was left who had it
+    nodes: string[]; // "caustic goes from a to b"
+}
+
 export interface State {
     t: number; // seconds
     phase: string;
@@ -77,6 +84,7 @@ export interface State {
     tiles: [number, number, number, number][];
     doing: Record<string, [string, number, number]>;
     camera?: Camera;
+    moves?: Move[]; // so far
     forecast?: Forecast; // of a run that is done
 }
 
