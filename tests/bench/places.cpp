@@ -53,6 +53,7 @@ void measure_network(const Picture& picture, const Registry& registry, const cha
     Cluster cluster(std::move(options));
     const std::atomic<bool> never{false};
     cluster.gather(5s, never);
+    cluster.adopt(cluster.plan());
     measure_efficiency(name, picture, cluster, cluster.plan());
     cluster.finish();
 }

@@ -82,6 +82,7 @@ private:
         Cluster cluster(std::move(options));
         const std::atomic<bool> never{false};
         cluster.gather(5s, never);
+        cluster.adopt(cluster.plan());
 
         const auto before = line.bytes();
         Cost cost;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -96,17 +97,21 @@ public:
 /// Asks for a tile, tells of the plan in force some time later, and ends the run when that has led to a question.
 class LateToTell final : public Carrier {
 public:
-    explicit LateToTell(Plan plan) : plan_(std::make_shared<const Plan>(std::move(plan))) {}
+    LateToTell(Plan plan, std::size_t width)
+        : plan_(std::make_shared<const Plan>(std::move(plan))), width_(static_cast<std::uint32_t>(width)) {}
     bool ask(const PlaceAt&, Message&) override {
         ++(told ? asked : asked_too_soon);
         return true;
     }
-    void reply(Message) override {}
+    void reply(Message message) override {
+        if (message.type == Message::Type::failure) why = message.trouble.why;
+    }
     std::optional<Message> receive() override {
         Message message;
         message.run = 1;
         if (!std::exchange(asked_tile_, true)) {
             message.node = image;
+            message.width = width_;
             message.questions = std::make_shared<const std::vector<Tile>>(1, Tile{0, 0, 8, 8, 0, 1});
             return message;
         }
@@ -115,21 +120,26 @@ public:
             message.type = Message::Type::plan, message.plan = plan_;
             return message;
         }
-        if (asked + asked_too_soon == 0 && waits_ < 1000) return std::nullopt;
+        if ((asked + asked_too_soon == 0 && waits_ < 1000) || std::exchange(ended_, true)) return std::nullopt;
         message.type = Message::Type::stop;
         return message;
     }
-    void wait(std::chrono::nanoseconds) override { ++waits_; }
+    void wait(std::chrono::nanoseconds) override {
+        ++waits_;
+        std::this_thread::sleep_for(100us);
+    }
     void forget(const PlaceAt&) override {}
     const Counters& counters() const override { return none_; }
 
     static constexpr std::uint32_t image = 2;
     bool told = false;
     int asked = 0, asked_too_soon = 0;
+    std::string why;  // the tile failed
 
 private:
     std::shared_ptr<const Plan> plan_;
-    bool asked_tile_ = false;
+    std::uint32_t width_;  // colours of a pixel
+    bool asked_tile_ = false, ended_ = false;
     int waits_ = 0;
     Counters none_;
 };
@@ -142,12 +152,12 @@ TEST(Place, AsksNobodyBeforeItIsToldWhomToAsk) {
     const Network network{graph, registry, std::make_shared<const Scene>(test::furnace(0.5f, 1), SceneOptions{}), 1};
     const Plan plan{{{"a", 0}, {"b", 0}}, {{}, {1}, {0}}};
     Gauge gauge(graph.nodes.size(), asking_edges(graph, network.layers, registry).size());
-    LateToTell carrier(plan);
+    LateToTell carrier(plan, colours_of(network.layers));
     std::atomic<bool> stop{false};
     std::atomic<std::uint64_t> progress{0};
     Place(network, plan.places[0], plan, 1, {}, carrier, gauge, Place::Asks::when_told).serve(stop, progress);
     EXPECT_EQ(carrier.asked_too_soon, 0);
-    EXPECT_GT(carrier.asked, 0);
+    EXPECT_GT(carrier.asked, 0) << carrier.why;
 }
 
 // A shard takes as long as thousands of questions: askers would think that these take as long.

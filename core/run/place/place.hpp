@@ -50,8 +50,8 @@ public:
     /// Serves until a stop message arrives or `stop` is set. Once, on the thread that made the place. Counts the
     /// bundles and tiles that it answers in `progress`: a sign of life for other threads.
     void serve(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress);
-    /// The same in turns, for who has several places in one thread: after begin(), each does what is to be done for a
-    /// moment, and waits at its carrier where that is nothing.
+    /// Serving in turns, for who has several places in one thread: after begin(), each turn does what is to be done for
+    /// a moment, and waits at its carrier where that is nothing.
     void begin(const std::atomic<bool>& stop, std::atomic<std::uint64_t>& progress);
     void work_once();
     Counters counters() const;
