@@ -79,7 +79,7 @@ inline OneThreadWorld world_of(std::uint64_t seed) {
     if (chance.happens(0.2)) world.unnoticed = 0.002 * chance.part();
     if (chance.happens(0.5)) world.twice = 0.2 * chance.part();
     if (chance.happens(0.3)) world.refused = 0.1;
-    world.let_go_after = chance.happens(0.5) ? 0.3 : 5;
+    world.let_go_after = chance.happens(0.5) ? 5 : 10;
     world.by_hash = chance.happens(0.5);
     world.tuning.bundle = static_cast<std::uint32_t>(1u << (3 + chance.below(6)));
     world.tuning.credit = static_cast<std::uint32_t>(1 + chance.below(8));
