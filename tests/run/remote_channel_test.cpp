@@ -57,8 +57,8 @@ protected:
 // Else who answers would take a question of a place that was started anew for one of the place before it, and the other
 // way round.
 TEST_F(RemoteChannelTest, HasNumbersOfItsOwnForBundlesOfOnePlaceAfterTheOther) {
-    RemoteChannel<Query> before{carrier, {.run = 1, .node = 3, .first_bundle = 1000}, {}, counters};
-    RemoteChannel<Query> after{carrier, {.run = 1, .node = 3, .first_bundle = 5000}, {}, counters};
+    RemoteChannel<Query> before{carrier, {.run = 1, .node = 3, .place = {}, .first_bundle = 1000}, {}, counters};
+    RemoteChannel<Query> after{carrier, {.run = 1, .node = 3, .place = {}, .first_bundle = 5000}, {}, counters};
     EXPECT_TRUE(before.send(bundle(2)) && after.send(bundle(2)));
     EXPECT_NE(carrier.asked[0].bundle, carrier.asked[1].bundle);
     auto late = reply_for(carrier.asked[0]), reply = reply_for(carrier.asked[1]);
