@@ -146,7 +146,9 @@ TEST(Unwanted, RaysEndTheWorkThatTracesThem) {
     EXPECT_NO_THROW(many());
     stop = true;
     EXPECT_THROW(many(), Cancelled);
-    EXPECT_THROW(Scene{one_of_each()}, Cancelled) << "trees, too";
+    SceneData moved = one_of_each();  // or the trees of the scene before would serve
+    moved.instances[0].to_world.m[0][3] += 1;
+    EXPECT_THROW(Scene{moved}, Cancelled) << "trees, too";
 }
 
 }  // namespace

@@ -180,8 +180,7 @@ SparseGrid grid_in(std::span<const std::byte> bytes, const StoredGrid& stored) {
     if (!stored.shares.empty()) refuse("has the tree of another grid: write it as one of its own");
     Stream stream(bytes, stored.at);
     const Number alone = twice ? Number::twice : Number::single;
-    const Number halved = twice ? Number::single : Number::half;
-    Storage storage{stream.get<std::uint32_t>(), stored.half ? halved : alone, alone, 0};
+    Storage storage{stream.get<std::uint32_t>(), stored.half ? Number::half : alone, alone, 0};
     for (const auto& [name, value] : facts_in(stream))
         if (name == "class" && value != "fog volume" && value != "unknown") refuse("is not a fog volume");
     const Matrix to_world = map_in(stream);
