@@ -248,6 +248,21 @@ TEST_F(WatchServerTest, PassesEditsOnFromThoseWhoMay) {
     EXPECT_THAT(lines, ElementsAre(R"({"set":{"light.samples":3}})"));
 }
 
+TEST_F(WatchServerTest, EndsWhatGoesOnBeyondRunsAlsoBetweenThem) {
+    auto lasting = options();
+    std::atomic<int> ended{0};
+    lasting.end = [&] { ++ended; };
+    WatchServer session(lasting, stage_before_runs());
+    Visitor visitor(session.port());
+    ASSERT_TRUE(visitor.watch("127.0.0.1:" + std::to_string(session.port())));
+    visitor.say(R"({"do":"end","token":"wrong"})");
+    EXPECT_TRUE(visitor.next_with("\"allowed\":false"));
+    EXPECT_EQ(ended, 0);
+    visitor.say(R"({"do":"end","token":"right"})");
+    EXPECT_TRUE(visitor.next_with("obeyed"));
+    EXPECT_EQ(ended, 1);
+}
+
 TEST_F(WatchServerTest, HasNobodyWaitForItsEnd) {
     auto ending = std::make_unique<WatchServer>(options(), stage());
     Visitor visitor(ending->port());

@@ -45,7 +45,9 @@ private:
     void open_to_watchers() {
         const auto& watch = sequence_.frames.front().watch;
         if (!watch) return;
-        server_.emplace(WatchServer::Options{*watch, new_token(), watch_page()}, stage_before_runs());
+        WatchServer::Options options{*watch, new_token(), watch_page()};
+        options.end = ask_to_stop;
+        server_.emplace(std::move(options), stage_before_runs());
         handover_.server = &*server_;
         std::cerr << "watch it at " << server_->url() << std::endl;
     }

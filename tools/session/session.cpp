@@ -22,6 +22,7 @@
 #include "tools/session/run.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/pace.hpp"
+#include "tools/support/signals.hpp"
 #include "tools/watch/watch_page.hpp"
 
 namespace lightnet {
@@ -154,6 +155,7 @@ private:
         if (!session_.watch) return;
         WatchServer::Options options{*session_.watch, new_token(), watch_page()};
         options.edit = [this](std::string line) { queue_.add(std::move(line)); };
+        options.end = ask_to_stop;
         server_.emplace(std::move(options), stage_before_runs());
         handover_.server = &*server_;
         events_.show_to(&*server_);

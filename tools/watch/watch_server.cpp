@@ -111,6 +111,10 @@ private:
         };
     }
     void command(WatchCommand wanted) {
+        if (wanted.what == WatchCommand::What::end && site_.options.end) {
+            site_.options.end();
+            return wanted.answer("");
+        }
         const std::lock_guard lock(site_.stage_mutex);
         site_.shown->command(std::move(wanted));
     }

@@ -60,6 +60,9 @@ public:
         std::string_view page;  // its bytes; outlives the server
         /// An edit, as a line of JSON; called by the server's thread. None: nothing can be edited.
         std::function<void(std::string)> edit = {};
+        /// Ends what goes on beyond single runs, also where none is shown; called by the server's thread. None: that is
+        /// the business of the run that is shown.
+        std::function<void()> end = {};
         std::uint64_t slow_seconds = 5;  // for one message to be taken
         std::size_t most_watchers = 64;
         std::size_t send_buffer = 0;  // of the system, bytes; 0: as it likes
