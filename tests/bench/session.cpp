@@ -58,27 +58,26 @@ public:
         std::ofstream(file_) << text_;
         std::ofstream(folder_.file("g.lua"))
             << "scene = Scene { \"scene.pbrt\" }\ndirect = DirectLighting { samples = 1 }\nbounce = PathTracing { "
-               "samples = 1 }\nimage = RayTracer { Combine { direct, bounce }, scene = scene, samples = 1000, film = { "
-               "256, 256 } }\n";
+               "samples = 1 }\nboth = Combine { direct, bounce }\nimage = RayTracer { both, scene = scene, samples = "
+               "1000, "
+               "film = { 256, 256 } }\n";
         const std::string pipe = folder_.file("edits");
         if (::mkfifo(pipe.c_str(), 0600) != 0) throw std::runtime_error("no pipe");
         const auto command = fmt::format("exec '{}' session '{}' {} --size {} --cache none --json -o '{}' <'{}'",
                                          LIGHTNET_STARTS_LIGHTNET, folder_.file("g.lua"), layout,
                                          bench::sized("256x256", "16x16"), folder_.file("now.exr"), pipe);
         events_.reset(::popen(command.c_str(), "r"));
-        edits_ = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
+        edits_.file = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
         wait_for_picture(0);
     }
-    ~Session() {
-        say(R"({"set":{"image.samples":1},"end":true})");
-        ::close(edits_);
-    }
+    ~Session() { say(R"({"set":{"image.samples":1},"end":true})"); }
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
     void say(const std::string& edit) const {
         const std::string line = edit + "\n";
-        if (::write(edits_, line.data(), line.size()) != ssize_t(line.size())) throw std::runtime_error("it is gone");
+        if (::write(edits_.file, line.data(), line.size()) != ssize_t(line.size()))
+            throw std::runtime_error("it is gone");
     }
     /// Another number behind `name` in the scene's file.
     void write(const std::string& name, int number) const {
@@ -108,6 +107,13 @@ private:
     struct Closes {
         void operator()(std::FILE* file) const { ::pclose(file); }
     };
+    struct Pipe {
+        int file = -1;
+        Pipe() = default;
+        ~Pipe() { ::close(file); }
+        Pipe(const Pipe&) = delete;
+        Pipe& operator=(const Pipe&) = delete;
+    };
     bool next(std::string& line) {
         line.clear();
         for (int c = std::getc(events_.get()); c != EOF && c != '\n'; c = std::getc(events_.get())) line += char(c);
@@ -117,7 +123,7 @@ private:
     lightnet::test::Folder folder_;
     std::string file_, text_;
     std::unique_ptr<std::FILE, Closes> events_;
-    int edits_ = -1;
+    Pipe edits_;  // closed before the session is waited for, which ends by that
 };
 
 void edit(const Session& session, const Edited& scene, const std::string& kind, int number) {
@@ -167,13 +173,13 @@ void measure(const Edited& scene, const std::string& name, const std::string& la
 std::vector<Edited> scenes() {
     const std::string graphs = LIGHTNET_SOURCE_DIR "/graphs/";
     std::vector<Edited> all{{"cornell", graphs + "cornell_box.pbrt", "\"rgb L\" [", "\"rgb reflectance\" [",
-                             R"({"camera":{"from":[20{},273,-800],"to":[278,273,280]}})", 60, ""},
+                             R"({"camera":{"from":[270.{},273,-800],"to":[278,273,280]}})", 60, ""},
                             {"studio", graphs + "studio.pbrt", "\"diffuse\" \"rgb L\" [", "\"rgb reflectance\" [",
-                             R"({"camera":{"fov":4{}}})", 60, ""}};
+                             R"({"camera":{"fov":40.{}}})", 60, ""}};
     for (const std::string name : {"living-room", "bmw-m6"})
         if (const auto rest = lightnet::test::shared_file("scenes/" + name + "-pbrt"); rest && !bench::smoke())
             all.push_back({name, (*rest / (name + ".pbrt")).string(), "", "\"rgb reflectance\" [",
-                           R"({"camera":{"fov":5{}}})", 120, rest->string()});
+                           R"({"camera":{"fov":50.{}}})", 120, rest->string()});
     return all;
 }
 
