@@ -21,15 +21,18 @@ double until_said(Process& run, const std::string& text, std::size_t before) {
 
 TEST_F(Faults, OfWorkersThatAreKilledChangeNoByte) {
     constexpr int goal = 20;
+    const std::string progress = "\"event\":\"progress\"";
     int kills = 0, runs = 0;
     double slowest = 0;
     for (; kills < goal && !HasFailure(); ++runs) {
         const auto run = start_in_the_middle(lasting, {"--local-workers", "2"});
         const auto mark = "--parent " + std::to_string(run->id());
         for (std::size_t here = 0; kills < goal && pause(*run, milliseconds(50)); ++here) {
-            // One that dies again and again before it was of use is given up.
+            // One that dies again and again before it was of use is given up, and a tile of which three died is set
+            // aside: something is done between deaths.
             while (times(run->output(), "is ready") < 2 + here && pause(*run, milliseconds(10))) {
             }
+            until_said(*run, progress, times(run->output(), progress) + 1);
             const auto workers = processes_with(mark);
             if (workers.empty() || run->wait(milliseconds(1)) >= 0) break;
             const auto anew = times(run->output(), "it is started anew");
