@@ -26,8 +26,8 @@ TEST(RunRecorder, NamesTheNodeThatMadeWhatIsNotFinite) {
     RunRecorder book({1, 1, {"emission"}, 1}, ProgressMode::none, 1, {});
     Counters counters;
     counters.not_finite = {{"bounce", 2}, {"light", 2}};
-    book.count(counters);
-    book.name_bad_light(graph);
+    book.account().count(counters);
+    alert_of_bad_light(book.account(), graph);
     const test::Folder folder;
     book.write_report(folder / "x.exr", "done");
     std::ifstream file(folder / "x.run.json");
@@ -47,9 +47,10 @@ std::string said_by(const std::function<void()>& act) {
 TEST(RunRecorder, IsHeardInEveryModeWhenSomethingIsLost) {
     for (const auto mode : {ProgressMode::none, ProgressMode::plain, ProgressMode::bar, ProgressMode::json}) {
         RunRecorder book({1, 1, {"emission"}, 1}, mode, 1, {});
-        EXPECT_THAT(said_by([&] { book.alert("x.exr is elsewhere"); }), HasSubstr("lightnet: x.exr is elsewhere"));
-        EXPECT_THAT(said_by([&] { book.alert("x.exr is elsewhere"); }), IsEmpty()) << "once is enough";
-        EXPECT_EQ(said_by([&] { book.warn("it takes longer"); }).empty(), mode == ProgressMode::none);
+        EXPECT_THAT(said_by([&] { book.account().alert("x.exr is elsewhere"); }),
+                    HasSubstr("lightnet: x.exr is elsewhere"));
+        EXPECT_THAT(said_by([&] { book.account().alert("x.exr is elsewhere"); }), IsEmpty()) << "once is enough";
+        EXPECT_EQ(said_by([&] { book.account().warn("it takes longer"); }).empty(), mode == ProgressMode::none);
     }
 }
 
@@ -57,8 +58,8 @@ TEST(RunRecorder, SaysInEveryModeThatItsPreviewOrCheckpointIsLost) {
     const test::Folder folder;
     const std::string nowhere = (folder / "none" / "x.exr").string();
     RunRecorder book({1, 1, {"emission"}, 16}, ProgressMode::none, 1, {});
-    book.preview(nowhere, 1e6);
-    EXPECT_THAT(said_by([&] { book.preview_now(nowhere); }), HasSubstr("no preview: "));
+    book.so_far().preview(nowhere, 1e6);
+    EXPECT_THAT(said_by([&] { book.so_far().preview_now(nowhere); }), HasSubstr("no preview: "));
     book.keep_checkpoint(nowhere, {}, std::chrono::seconds(0));
     const std::vector<Rgb> pixels(1);
     const auto said = said_by([&] {
@@ -75,7 +76,7 @@ TEST(RunRecorder, HasHostsAttendedToWhileItCleansOrWritesMuch) {
     format.shown = {cleaning::half_of("direct")};
     RunRecorder book(format, ProgressMode::none, side, {});
     int times = 0;
-    book.attend_by([&] { ++times; });
+    book.files().attend_by([&] { ++times; });
     std::vector<Rgb> pixels(std::size_t{side} * side * format.colours());
     for (float value = 0; auto& pixel : pixels) pixel.r = value += 0.37f;  // what isn't packed in no time
     std::vector<Tile> next;
@@ -85,7 +86,7 @@ TEST(RunRecorder, HasHostsAttendedToWhileItCleansOrWritesMuch) {
     EXPECT_GT(times, 0);
     times = 0;
     const test::Folder folder;
-    EXPECT_EQ(book.preview_now(folder / "x.exr"), "");
+    EXPECT_EQ(book.so_far().preview_now(folder / "x.exr"), "");
     EXPECT_GT(times, 0);
 }
 

@@ -1,5 +1,6 @@
 #include "tools/session/delivery.hpp"
 
+#include <fmt/format.h>
 #include <pwd.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/words_of.hpp"
 #include "tools/support/exit_code.hpp"
+#include "tools/support/summary.hpp"
 
 namespace lightnet {
 namespace {
@@ -43,6 +45,19 @@ std::string attempt_for_long(const Delivery& delivery, const std::string& pictur
         if (why.empty()) return why;
     }
     return why;
+}
+
+// The last words of a run that is done. `asked`: hosts that were to take part; `exposure`: stops.
+void conclude(RunRecorder& book, const Hosts& asked, double exposure) {
+    const FilmFormat& format = book.steps().film().format();
+    auto layers = format.layers;
+    layers.insert(layers.end(), format.shown.begin(), format.shown.end());
+    if (format.alpha) layers.emplace_back("A");
+    RunAccount& account = book.account();
+    if (const auto& error = account.report().error)
+        account.say(fmt::format("relMSE to {}: {:g}", error->reference, error->relative_square));
+    const ShownInPng& png = book.files().png();
+    account.say(summary_of({account.report(), layers, asked, png.brightness, exposure, png.request.stops, png.stops}));
 }
 
 }  // namespace
@@ -86,13 +101,13 @@ int finish_run(RunRecorder& book, const RunRequest& request, double exposure, co
     delivery.write = [&](const std::string& picture) { book.write_picture(picture); };
     delivery.patience = request.wait;
     delivery.hurried = [&] { return hurried.load(); };
-    delivery.say = [&](const std::string& text) { book.alert(text); };
+    delivery.say = [&](const std::string& text) { book.account().alert(text); };
     delivery.elsewhere = folders_of_last_resort();
     const auto picture = deliver(delivery, request.output);
     const bool in_place = picture == request.output;
     if (in_place) book.end_checkpoint(!request.forget);
-    book.write_report(picture, in_place ? "done" : "failed");
-    if (!request.frame) book.conclude(request.hosts, exposure);  // else the sequence has the last word
+    book.write_report(picture, in_place ? "done" : "failed", request.trace);
+    if (!request.frame) conclude(book, request.hosts, exposure);  // else the sequence has the last word
     return in_place ? exit_code::done : exit_code::failed;
 }
 

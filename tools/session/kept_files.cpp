@@ -18,8 +18,8 @@ void KeptFiles::write(const std::function<Bytes(std::size_t node)>& result_of, R
         if (!result) continue;
         expect_ours(file, kept_beginning);
         write_file(file, kept_text(*kind, scene_, *result));
-        book.set("kept." + name, file);
-        book.say(name + ": kept in " + file);
+        book.account().set("kept." + name, file);
+        book.account().say(name + ": kept in " + file);
     }
 }
 

@@ -51,7 +51,7 @@ std::string who_runs(const Graph& graph) {
 class Rendering::Attention {
 public:
     Attention(RunRecorder& book, Coordinator& coordinator) : book_(book) {
-        book_.attend_by([this, &coordinator] {
+        book_.files().attend_by([this, &coordinator] {
             try {
                 if (!trouble_) coordinator.wait(1ms);
             } catch (...) {
@@ -59,7 +59,7 @@ public:
             }
         });
     }
-    ~Attention() { book_.attend_by(nullptr); }
+    ~Attention() { book_.files().attend_by(nullptr); }
     Attention(const Attention&) = delete;
     Attention& operator=(const Attention&) = delete;
 
@@ -79,13 +79,13 @@ Rendering::Rendering(Assignment what, RunRecorder& book, const Signals& signals)
       signals_(signals),
       image_(renderer_of(what_.job.graph, what_.registry)),
       id_(secret_number()) {
-    book_.name_run(id_);
+    book_.account().set("run", public_name_of_run(id_));
     if (what_.handover) liars_ = what_.handover->liars();
 }
 
 void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
     if (what_.request.tuning.verify > 0 && what_.request.mode != Mode::network)
-        book_.alert("--verify asks other hosts, and this run has none");
+        book_.account().alert("--verify asks other hosts, and this run has none");
     switch (what_.request.mode) {
         case Mode::serial:
             return serially(std::move(scene));
@@ -100,12 +100,12 @@ std::shared_ptr<const Network> Rendering::network_of(LoadedScene scene) {
     const LookingAt looking(what_.request.shown ? &signals_.superseded : nullptr);
     auto network = build_network(what_.job, what_.registry, std::move(scene));
     if (what_.handover) what_.handover->hold(network->scene);
-    book_.share(network, what_.made_from);
+    if (auto* watcher = book_.account().watcher()) watcher->share(network, what_.made_from, book_.files().scale());
     return network;
 }
 
 void Rendering::serially(LoadedScene scene) {
-    book_.phase("prepare");
+    book_.account().phase("prepare");
     const auto network = network_of(std::move(scene));
     std::optional<SamplingProfiler> profiler;
     const Crowd alone{{}, {}, [&] { return std::vector{this_process(1, profiler->figures())}; }, {}};
@@ -115,27 +115,27 @@ void Rendering::serially(LoadedScene scene) {
     });
     std::optional<PlaceTracer> tracer;
     if (what_.request.tuning.trace) run.trace(tracer.emplace(what_.job.graph, 1 << 16));
-    if (book_.shown()) profiler.emplace(std::vector{&run.gauge()});
-    run.watch([this](const PrepareProgress& progress) { book_.preparing(progress); });
-    book_.use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(what_.job.graph.nodes.size(), {0})},
-              what_.job.graph);
+    if (book_.account().watcher()) profiler.emplace(std::vector{&run.gauge()});
+    run.watch([this](const PrepareProgress& progress) { book_.account().preparing(progress); });
+    book_.account().use(Plan{{PlaceAt{}}, std::vector<std::vector<std::uint32_t>>(what_.job.graph.nodes.size(), {0})},
+                        what_.job.graph);
     try {
         const LookingAt looking(&signals_.any);
         render(run);
     } catch (const Cancelled&) {
     }
-    if (profiler) book_.show_last(alone.hosts);
+    if (profiler) book_.account().watcher()->part_from(alone.hosts);
     auto counters = run.counters();
     if (tracer) counters.traces.push_back(tracer->take("", 0));
-    book_.count(counters);
+    book_.account().count(counters);
 }
 
 void Rendering::render(SerialRun& run) {
     auto tiles = book_.next_step();
-    const auto say = [this](const std::string& text) { book_.say(text); };
+    const auto say = [this](const std::string& text) { book_.account().say(text); };
     run.prepare(what_.made_from, cache(), say, TilesByPass(what_.job.graph, what_.registry, tiles).pass());
     what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
-    book_.phase("render");
+    book_.account().phase("render");
     for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
         TilesByPass passes(what_.job.graph, what_.registry, tiles);
         while (!passes.empty() && !ended()) {
@@ -150,19 +150,19 @@ void Rendering::render(SerialRun& run) {
 }
 
 void Rendering::in_threads(LoadedScene scene) {
-    book_.phase("prepare");
+    book_.account().phase("prepare");
     const auto network = network_of(std::move(scene));
     const Plan plan =
         lightnet::plan(what_.job.graph, what_.registry, what_.request.hosts, {{"", what_.request.threads}});
     ThreadedRun run(network, id_, plan, what_.job.tuning);
-    book_.use(plan, what_.job.graph);
-    if (book_.shown()) run.watch();
+    book_.account().use(plan, what_.job.graph);
+    if (book_.account().watcher()) run.watch();
     const auto places = static_cast<std::uint32_t>(plan.places.size());
     const auto hosts = [&] { return std::vector{this_process(places, run.figures())}; };
     hand_out(run.carrier(), plan,
              {[&](std::size_t) { run.check(); }, [&] { return network->activity->all(); }, hosts, {}, [] {}});
-    book_.show_last(hosts);
-    book_.count(run.stop());
+    if (auto* watcher = book_.account().watcher()) watcher->part_from(hosts);
+    book_.account().count(run.stop());
 }
 
 // How many tiles are under way per place: one that renders and one that waits, or, where lighting is elsewhere, as many
@@ -184,7 +184,7 @@ ResultCache* Rendering::cache() {
                        what_.request.tuning.cache_size);
         return &*cache_;
     } catch (const Error& error) {
-        book_.warn(std::string("what nodes prepare is not kept: ") + error.what());
+        book_.account().warn(std::string("what nodes prepare is not kept: ") + error.what());
         return nullptr;
     }
 }
@@ -195,10 +195,10 @@ bool Rendering::prepare(Coordinator& coordinator, const Crowd& crowd) {
         !slices_of(what_.request).of([&](auto most) { return coordinator.prepare(most); }, [&] { return ended(); })) {
         if (ended()) return false;
         crowd.look_around(coordinator.in_force().places_of[image_].size());
-        book_.preparing(with(coordinator.progress(), crowd.doing()));
+        book_.account().preparing(with(coordinator.progress(), crowd.doing()));
         show(crowd);
     }
-    for (const auto& [node, hash] : coordinator.prepared()) book_.set("prepared." + node, to_hex(hash));
+    for (const auto& [node, hash] : coordinator.prepared()) book_.account().set("prepared." + node, to_hex(hash));
     return true;
 }
 
@@ -211,7 +211,7 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     options.made_from = what_.made_from;
     options.cache = cache();
     options.verify = what_.request.tuning.verify;
-    options.say = [this](const std::string& text) { book_.say(text); };
+    options.say = [this](const std::string& text) { book_.account().say(text); };
     Coordinator coordinator(std::move(options), carrier);
     auto tiles = book_.next_step();
     coordinator.begin_pass(TilesByPass(what_.job.graph, what_.registry, tiles).pass());
@@ -221,7 +221,7 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
         what_.kept.write([&](std::size_t node) { return coordinator.last_result(node); }, book_);
     };
     if (!what_.request.tuning.verify) write_kept();
-    book_.phase("render");
+    book_.account().phase("render");
     const Attention attention(book_, coordinator);
     for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
         attention.check();
@@ -247,7 +247,8 @@ void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, con
     job.check_answers = what_.request.tuning.check_answers;
     job.verify = what_.request.tuning.verify;
     job.alone = [this](const Plan& plan) { return answers_alone(plan, what_.job.graph, image_); };
-    if (book_.shown()) job.handed_out = [this](const auto& handed_out) { book_.show_handed_out(handed_out); };
+    if (book_.account().watcher())
+        job.handed_out = [this](const auto& handed_out) { book_.account().watcher()->handed_out(handed_out); };
     MasterRenderer* more = nullptr;
     MasterRenderer master(std::move(job), coordinator, [&](const Tile& tile, std::span<const Rgb> pixels) {
         more->append(passes.sort(book_.take(tile, pixels)));
@@ -267,7 +268,7 @@ void Rendering::hand_out_pass(Coordinator& coordinator, TilesByPass& passes, con
         while (master.outstanding() > 0 && Clock::now() < end && !signals_.interrupted) master.work(50ms);
     }
     crowd.trust();
-    book_.count(master.counters());
+    book_.account().count(master.counters());
     if (const auto& aside = master.set_aside_tiles(); !aside.empty()) {
         std::string all = "the picture lacks some of its tiles, and is not written:";
         for (const auto& tile : aside) all += "\n  " + tile;
@@ -286,13 +287,13 @@ Cluster::Options Rendering::cluster_options(const DiskFiles& files) {
         return lightnet::plan(what_.job.graph, what_.registry, whole_ ? Hosts{} : what_.request.hosts, offers);
     };
     options.moved = [this] { return moves_ && moves_->take_change(); };
-    options.say = [this](const std::string& text) { book_.say(text); };
-    options.warn = [this](const std::string& text) { book_.warn(text); };
+    options.say = [this](const std::string& text) { book_.account().say(text); };
+    options.warn = [this](const std::string& text) { book_.account().warn(text); };
     return options;
 }
 
 void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
-    book_.phase("prepare");
+    book_.account().phase("prepare");
     if (what_.request.laid_out && what_.job.graph.sectors.empty())
         moves_.emplace(*what_.request.laid_out, Moves::Of{what_.job.graph, what_.registry, what_.request.hosts});
     if (moves_ && !moves_->may_move()) moves_.reset();
@@ -327,18 +328,18 @@ void Rendering::begin_anew(Crew& crew, const Failure& lie) {
         throw Error("answers of hosts differ, and nobody can tell which is right",
                     lie.why + "; with three hosts, or with --threads 1, whose answers are believed, it can be told");
     if (lie.host.empty()) {
-        book_.alert(lie.why +
-                    ": the run begins anew, with the whole network at each host, so that it shows who is wrong");
+        book_.account().alert(
+            lie.why + ": the run begins anew, with the whole network at each host, so that it shows who is wrong");
         whole_ = true;
     } else {
-        book_.alert(lie.host + " is taken out, as it answers falsely: " + lie.why +
-                    "; all that it has told is done again");
+        book_.account().alert(lie.host + " is taken out, as it answers falsely: " + lie.why +
+                              "; all that it has told is done again");
         liars_.insert(lie.host);
         if (what_.handover) what_.handover->liars() = liars_;
     }
     id_ = secret_number();
-    book_.name_run(id_);
-    book_.phase("prepare");
+    book_.account().set("run", public_name_of_run(id_));
+    book_.account().phase("prepare");
     crew.begin_anew(id_, liars_, what_.request.threads ? network_of_files() : nullptr);
 }
 
@@ -360,11 +361,11 @@ void Rendering::on(Crew& crew) {
     const auto trust = [&] {
         if (what_.request.tuning.verify > 0 && cluster.lie()) throw Lie{*cluster.lie()};
     };
-    crew.gather(signals_.any, book_.time_left());
+    crew.gather(signals_.any, book_.steps().limit().left(std::chrono::steady_clock::now()));
     if (signals_.superseded) return crew.end_soon();
     if (ended()) return void(cluster.finish(300ms));
-    book_.use(cluster.plan(), what_.job.graph);
-    for (const auto& host : crew.missing()) book_.warn(host);
+    book_.account().use(cluster.plan(), what_.job.graph);
+    for (const auto& host : crew.missing()) book_.account().warn(host);
     warn_of_unverified(cluster.plan());
     std::optional<Clock::time_point> homeless;
     const auto look_around = [&](std::size_t renderers) {
@@ -373,26 +374,26 @@ void Rendering::on(Crew& crew) {
         if (renderers > 0) return homeless.reset();
         const auto& name = what_.job.graph.nodes[image_].name;
         if (!homeless) {
-            book_.say(fmt::format("node '{}' has no place any more; waiting {} s for a host to come", name,
-                                  what_.request.wait.count()));
+            book_.account().say(fmt::format("node '{}' has no place any more; waiting {} s for a host to come", name,
+                                            what_.request.wait.count()));
             homeless = Clock::now();
         }
         if (Clock::now() - *homeless > what_.request.wait)
             throw Error(fmt::format("node '{}' has no place any more, and no host came within {} s", name,
                                     what_.request.wait.count()));
     };
-    if (book_.shown() || moves_) cluster.watch();
+    if (book_.account().watcher() || moves_) cluster.watch();
     hand_out(cluster, cluster.plan(),
              {look_around, [&] { return cluster.doing(); }, [&] { return cluster.hosts(); },
               [&](const std::string& host) { return cluster.drain(host); }, trust, [&] { move_nodes(cluster); }});
-    book_.show_last([&] { return cluster.hosts(); });
-    book_.use(cluster.plan(), what_.job.graph);
-    for (const auto& host : cluster.hosts()) book_.use(host);
+    if (auto* watcher = book_.account().watcher()) watcher->part_from([&] { return cluster.hosts(); });
+    book_.account().use(cluster.plan(), what_.job.graph);
+    for (const auto& host : cluster.hosts()) book_.account().use(host);
     if (signals_.superseded) return crew.end_soon();
     const auto counted = cluster.finish(signals_.any ? 300ms : 1000ms);
     if (!signals_.any) trust();  // a word of the last moment
-    for (const auto& host : cluster.hosts()) book_.use(host);
-    book_.count(counted);
+    for (const auto& host : cluster.hosts()) book_.account().use(host);
+    book_.account().count(counted);
 }
 
 }  // namespace lightnet

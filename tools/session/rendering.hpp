@@ -83,7 +83,7 @@ private:
     bool prepare(Coordinator& coordinator, const Crowd& crowd);
     ResultCache* cache();
     std::uint32_t tiles_per_place(const Plan& plan) const;
-    bool ended() const { return signals_.any || book_.time_is_over(); }
+    bool ended() const { return signals_.any || book_.steps().limit().over(std::chrono::steady_clock::now()); }
 
     Assignment what_;
     RunRecorder& book_;

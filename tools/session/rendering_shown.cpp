@@ -14,18 +14,18 @@
 namespace lightnet {
 
 void Rendering::show(const Crowd& crowd) {
-    if (!book_.shown()) return;
+    if (!book_.account().watcher()) return;
     book_.show(crowd.hosts);
-    for (const auto& wish : book_.wishes()) obey(wish, crowd);
+    for (const auto& wish : book_.account().watcher()->commands()) obey(wish, crowd);
 }
 
 void Rendering::obey(const WatchCommand& wish, const Crowd& crowd) {
-    if (wish.what == WatchCommand::What::write) return wish.answer(book_.preview_now(what_.request.output));
+    if (wish.what == WatchCommand::What::write) return wish.answer(book_.so_far().preview_now(what_.request.output));
     if (wish.what != WatchCommand::What::drain) return;
     const bool drains = crowd.drain && crowd.drain(wish.host);
     const auto host = in_quotes(wish.host);
     const auto why_not = drains ? "" : host + " can't be taken out: it is not there, or all that is there";
-    book_.say(drains ? host + " is to leave the run" : why_not);
+    book_.account().say(drains ? host + " is to leave the run" : why_not);
     wish.answer(why_not);
 }
 
@@ -33,12 +33,12 @@ void Rendering::obey(const WatchCommand& wish, const Crowd& crowd) {
 void Rendering::move_nodes(const Cluster& cluster) {
     if (!moves_ || whole_) return;
     constexpr double for_ever = std::numeric_limits<double>::infinity();
-    const auto limit = book_.time_left();
+    const auto limit = book_.steps().limit().left(std::chrono::steady_clock::now());
     const double left = limit ? std::chrono::duration<double>(*limit).count() : for_ever;
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     if (const auto move = moves_->look(
             now, [&] { return cluster.hosts(); }, book_.share_done(), left))
-        book_.moved(*move);
+        book_.account().moved(*move);
 }
 
 // Who alone holds a node can say of it what he likes.
@@ -48,8 +48,8 @@ void Rendering::warn_of_unverified(const Plan& plan) {
         std::set<std::string> hosts;
         for (const auto place : plan.places_of[node]) hosts.insert(plan.places[place].host);
         if (hosts.size() == 1 && !hosts.begin()->empty())
-            book_.alert(fmt::format("node '{}' is at {} alone, so nobody can verify what it answers there",
-                                    what_.job.graph.nodes[node].name, *hosts.begin()));
+            book_.account().alert(fmt::format("node '{}' is at {} alone, so nobody can verify what it answers there",
+                                              what_.job.graph.nodes[node].name, *hosts.begin()));
     }
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/atomic_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_files.hpp"
 #include "core/base/unwanted.hpp"
@@ -33,6 +34,7 @@
 #include "tools/session/run_trace.hpp"
 #include "tools/support/exit_code.hpp"
 #include "tools/support/signals.hpp"
+#include "tools/watch/report_page.hpp"
 
 namespace lightnet {
 namespace {
@@ -80,19 +82,28 @@ void check_inputs(const RunRequest& request, const Job& job, const FilmFormat& f
 
 // What is there becomes the picture, whatever it is; its checkpoint first, as that is what costs most to lose. In
 // words.
-std::string write_what_is_there(RunRecorder& book, const std::string& output,
+std::string write_what_is_there(RunRecorder& book, const RunRequest& request,
                                 std::optional<std::chrono::duration<double>> most, const std::string& outcome) {
     const bool kept = book.save_checkpoint(most);
     const std::string goes_on = kept ? "; --resume goes on from here" : "";
     const auto there = book.end_early();
-    std::string written = there.empty() ? "no picture was written" : there + ", in " + output;
+    std::string written = there.empty() ? "no picture was written" : there + ", in " + request.output;
     try {
-        if (!there.empty()) book.write_picture(output);
+        if (!there.empty()) book.write_picture(request.output);
     } catch (const std::exception& error) {
         written = std::string("no picture was written: ") + words_of(error);
     }
-    book.write_report(output, outcome);
+    book.write_report(request.output, outcome, request.trace);
     return written + goes_on;
+}
+
+// Of layers that lack light.
+void alert_of_lost(RunAccount& account, const Film& film) {
+    const auto lost = film.lost();
+    for (std::size_t layer = 0; layer < lost.size(); ++layer)
+        if (lost[layer])
+            account.alert(fmt::format("{} colours of layer '{}' were not finite and count as black", lost[layer],
+                                      film.format().name_of(layer)));
 }
 
 // One run of a checked graph, from its scene to its files. One thread's at a time: another may write the files.
@@ -111,7 +122,7 @@ public:
     /// None: all samples are there, and the files are still to be written.
     std::optional<int> render();
     /// From now on another thread has the run.
-    void stand_aside() { book_.stand_aside(); }
+    void stand_aside() { book_.account().stand_aside(); }
     int write();
 
 private:
@@ -149,9 +160,9 @@ void Run::take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made) {
             viewpoint_of(camera, scene.built ? scene.built->bounds() : statistics_of(scene.data).bounds));
     auto words = words_of(request_.graph, registry_, format_, recipe, data_of(scene), camera);
     if (const auto& name = request_.lighting.name; !name.empty()) words.notes.texts["lighting"] = name;
-    book_.describe(std::move(words));
+    book_.files().describe(std::move(words));
     book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint),
-                          memo_for(request_, registry_, film, [this](const auto& why) { book_.warn(why); }));
+                          memo_for(request_, registry_, film, [this](const auto& why) { book_.account().warn(why); }));
     book_.take_up_checkpoint(request_.resume);
 }
 
@@ -162,8 +173,8 @@ LoadedScene Run::load() {
 }
 
 std::optional<int> Run::render_film() {
-    if (const auto words = words_of_lighting(request_); !words.empty()) book_.say(words);
-    book_.phase("load");
+    if (const auto words = words_of_lighting(request_); !words.empty()) book_.account().say(words);
+    book_.account().phase("load");
     LoadedScene scene = load();
     check_inputs(request_, scene_.job(), format_);
     if (scene_.was_there(scene, book_)) return exit_code::done;
@@ -175,51 +186,53 @@ std::optional<int> Run::render_film() {
         const Window wanted = format_.crop.value_or(Window{0, 0, format_.width, format_.height});
         book_.compare_with({request_.reference, request_.curve, wanted.width, wanted.height});
     }
-    book_.show_png(request_.png, scene_overrides(request_.graph, registry_).exposure != 0);
-    book_.keep_arrays(request_.arrays);
-    book_.trace_to(request_.trace);
+    book_.files().show_png({request_.png, scene_overrides(request_.graph, registry_).exposure != 0});
+    book_.files().keep_arrays(request_.arrays);
     if (request_.shown) book_.show_steps(request_.output, request_.shown);
-    if (request_.preview > 0) book_.preview(request_.output, request_.preview);
+    if (request_.preview > 0) book_.so_far().preview(request_.output, request_.preview);
     take_up_checkpoint(scene, made);
-    if (book_.complete() && request_.resume && book_.is_written(request_.output)) {
-        book_.say(request_.output + " is finished: nothing to do; ask for more with --samples");
+    if (book_.steps().finished() && request_.resume && book_.files().is_there(request_.output)) {
+        book_.account().say(request_.output + " is finished: nothing to do; ask for more with --samples");
         return exit_code::done;
     }
-    if (book_.complete() && request_.resume) book_.say(request_.output + " is finished but for its file");
-    if (book_.complete() && handover_)
+    if (book_.steps().finished() && request_.resume)
+        book_.account().say(request_.output + " is finished but for its file");
+    if (book_.steps().finished() && handover_)
         handover_->leave(scene);
-    else if (!book_.complete())
+    else if (!book_.steps().finished())
         Rendering({request_, registry_, scene_.job(), format_, to_keep, made, handover_}, book_, signals_)
             .perform(std::move(scene), scene_.files());
     if (signals_.any) return cancelled();
-    if (!book_.complete() && !end_in_time()) return exit_code::failed;
+    if (!book_.steps().finished() && !end_in_time()) return exit_code::failed;
     return std::nullopt;
 }
 
 int Run::write_files() {
-    book_.phase("write");
-    book_.name_bad_light(scene_.job().graph);
+    book_.account().phase("write");
+    alert_of_bad_light(book_.account(), scene_.job().graph);
+    alert_of_lost(book_.account(), book_.steps().picture());
     const int code = finish_run(book_, request_, scene_overrides(request_.graph, registry_).exposure, signals_.any);
-    if (code == exit_code::done) book_.tell_shown(true);
+    if (code == exit_code::done) book_.so_far().tell_shown(true);
     return code;
 }
 
 int Run::cancelled() {
     if (signals_.superseded) return book_.end_checkpoint(false), exit_code::interrupted;
-    const auto there = write_what_is_there(book_, request_.output, time_to_end(signals_), "cancelled");
+    const auto there = write_what_is_there(book_, request_, time_to_end(signals_), "cancelled");
     std::cerr << "cancelled: " << there << '\n';
     return exit_code::interrupted;
 }
 
 // False: it came too soon for a picture that is one.
 bool Run::end_in_time() {
-    if (!book_.covered()) {
-        const auto there = write_what_is_there(book_, request_.output, {}, "preview");
+    const Film& film = book_.steps().picture();
+    if (film.covered() < 1 || film.format().coarse) {
+        const auto there = write_what_is_there(book_, request_, {}, "preview");
         std::cerr << "lightnet: the time was over before every pixel had a sample: " << there << '\n';
         return false;
     }
-    book_.say("the time is over: " + book_.end_early() +
-              (book_.keeps_checkpoint() ? "; --resume goes on from here" : ""));
+    book_.account().say("the time is over: " + book_.end_early() +
+                        (book_.keeps_checkpoint() ? "; --resume goes on from here" : ""));
     return true;
 }
 
@@ -230,7 +243,7 @@ void Run::open_to_watchers() {
     watcher_.emplace(Watcher::Options{request_.watch, request_.viewer, !request_.report.empty(), ask_to_stop,
                                       explainer_ ? &*explainer_ : nullptr, server},
                      watched_run(request_, registry_, format_, server != nullptr));
-    book_.show_to(&*watcher_);
+    book_.account().show_to(&*watcher_);
     // Whoever asks for it wants to know, however little else is said.
     if (request_.watch && !server) std::cerr << "watch it at " << watcher_->url() << std::endl;
 }
@@ -273,14 +286,18 @@ bool Run::show_outcome(const std::string& outcome) {
     if (!watcher_) return true;
     const bool alone = !request_.frame && !(handover_ && handover_->server);
     const bool foreseen = outcome == "done" && alone && watcher_->wanted();
-    book_.show_outcome(outcome, foreseen ? curve_of_run(report_beside(request_.output), registry_) : ForecastCurve{});
+    watcher_->progress(book_.steps().done(), {}, book_.account().report().moves);
+    watcher_->finish(book_.steps().picture(), outcome,
+                     foreseen ? curve_of_run(report_beside(request_.output), registry_) : ForecastCurve{});
     if (request_.report.empty()) return true;
     const auto complain = [&](const std::string& why) {
         std::cerr << "lightnet: there is no report: " << why << '\n';
         return false;
     };
     try {
-        book_.write_report_page(request_.report);
+        expect_ours(request_.report, report_page_beginning);
+        const auto facts = facts_of(book_.account().report(), watcher_->at_work());
+        write_file(request_.report, report_page(*watcher_, book_.steps().picture(), facts));
         return true;
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory for it");
@@ -307,10 +324,10 @@ std::optional<int> Run::reported(const std::function<std::optional<int>()>& work
 // What went wrong is said anyhow; a report that can't be written must not hide it.
 void Run::report_failure() {
     try {
-        if (book_.save_checkpoint()) book_.say("what is there is kept: --resume goes on from here");
-        book_.write_report(request_.output, "failed");
+        if (book_.save_checkpoint()) book_.account().say("what is there is kept: --resume goes on from here");
+        book_.write_report(request_.output, "failed", request_.trace);
     } catch (const std::exception& error) {
-        book_.alert(std::string("there is no report of it: ") + words_of(error));
+        book_.account().alert(std::string("there is no report of it: ") + words_of(error));
     }
 }
 

@@ -42,17 +42,17 @@ void RunScene::warn_of(const SceneData& scene, RunRecorder& book) const {
         const auto text = to_string(warning);
         if (handover_ && !handover_->is_new(text)) continue;
         if (is_of_files_outside(warning) && request_.mode == Mode::network)
-            book.alert(text);
+            book.account().alert(text);
         else
-            book.warn(text);
+            book.account().warn(text);
     }
 }
 
 bool RunScene::was_there(LoadedScene& scene, RunRecorder& book) const {
     if (!request_.frame) return false;
     const auto recipe = recipe_of_frame(job_);
-    book.set("recipe", recipe);
-    book.set("frame", std::to_string(request_.frame->number));
+    book.account().set("recipe", recipe);
+    book.account().set("frame", std::to_string(request_.frame->number));
     if (!request_.resume || !is_there(request_.output, recipe)) return false;
     if (handover_) handover_->was_there = true;
     if (handover_) handover_->leave(scene);

@@ -15,6 +15,11 @@ constexpr double most_samples = 1u << 28;
 
 }  // namespace
 
+std::optional<std::chrono::milliseconds> TimeLimit::left(Time now) const {
+    if (!end_) return std::nullopt;
+    return std::max(std::chrono::ceil<std::chrono::milliseconds>(*end_ - now), std::chrono::milliseconds(0));
+}
+
 void TimeLimit::took(std::uint32_t samples, std::chrono::duration<double> time) {
     if (samples == 0) return;
     seconds_per_sample_ = std::max(time.count(), 1e-9) / samples;

@@ -20,6 +20,8 @@ public:
     explicit operator bool() const { return end_.has_value(); }
     std::optional<Time> end() const { return end_; }
     bool over(Time now) const { return end_ && now >= *end_; }
+    /// None: it takes as long as it takes.
+    std::optional<std::chrono::milliseconds> left(Time now) const;
 
     /// All pixels got so many samples in such a time.
     void took(std::uint32_t samples, std::chrono::duration<double> time);
