@@ -25,7 +25,7 @@ void drop(SceneData scene);
 /// A picture of 2 x 2 pixels, all the way from the camera to the light and back.
 void render(SceneData scene);
 
-/// Packets: the header's 64 bytes, then the body. Each is also read with its magic, size and checksum put right, or
+/// Packets: the header's 68 bytes, then the body. Each is also read with its magic, size and checksum put right, or
 /// nothing would ever come past them.
 Target packets();
 /// Scenes in the language of pbrt, beside which a mesh lies.

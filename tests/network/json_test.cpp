@@ -88,7 +88,9 @@ TEST(HostsJson, ComesBackEqual) {
 TEST(PlanJson, ComesBackEqual) {
     Plan plan{{{"tcp://a:1", 0}, {"", 1}}, {{0, 1}, {}, {1}}};
     plan.processes = {{"tcp://a:1", ~std::uint64_t{0}}};
+    plan.edition = 7;
     EXPECT_EQ(plan_from_json(to_json(plan)), plan);
+    EXPECT_EQ(plan_from_json(to_json(plan)).edition, 7u);
 }
 
 TEST(PlanJson, RefusesAPlaceThatIsNotThere) {

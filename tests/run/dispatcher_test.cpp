@@ -58,7 +58,7 @@ protected:
         hear(std::move(message));
     }
     void ask(std::uint64_t number, std::size_t questions, const PlaceAt& asker = {"other", 0},
-             const std::string& route = "way back") {
+             const std::string& route = "way back", std::uint32_t edition = 0) {
         auto queries = std::make_shared<std::vector<Query>>(questions);
         for (std::size_t i = 0; i < questions; ++i) (*queries)[i].sample = static_cast<std::uint32_t>(i);
         Message message;
@@ -66,6 +66,7 @@ protected:
         message.channel = 3;
         message.bundle = number;
         message.node = light;
+        message.edition = edition;
         message.asker = name_of(asker);
         message.questions = std::move(queries);
         message.route.hops = {route};
@@ -110,6 +111,19 @@ TEST_F(DispatcherTest, DealsToThePlacesThatHoldTheNodeAndAnswersInTheirName) {
     EXPECT_EQ(reply.answers.size(), 3u);
     EXPECT_EQ(dispatcher.counters().dealt, 2u);
     EXPECT_EQ(dispatcher.counters().bundles, 0u) << "those who asked have counted them";
+}
+
+// A place that has let go of the node would be asked, and nobody answer.
+TEST_F(DispatcherTest, KeepsWhatIsAskedByALaterPlanUntilItIsTold) {
+    Plan first = plan(), second = plan();
+    first.edition = 1, second.edition = 2;
+    second.places_of[light] = {2};
+    tell(first);
+    ask(11, 3, {"other", 0}, "way back", 2);
+    EXPECT_THAT(places_asked(), IsEmpty());
+    tell(second);
+    EXPECT_THAT(places_asked(), ElementsAre(2));
+    EXPECT_EQ(carrier.asked[0].second.edition, 2u);
 }
 
 TEST_F(DispatcherTest, TellsHowBusyItsPlacesAreTogether) {

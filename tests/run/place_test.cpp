@@ -160,6 +160,129 @@ TEST(Place, AsksNobodyBeforeItIsToldWhomToAsk) {
     EXPECT_GT(carrier.asked, 0) << carrier.why;
 }
 
+/// Asks for a tile by the second plan before that has been told; says who is asked then.
+class Overtaking final : public Carrier {
+public:
+    Overtaking(Plan first, Plan second, std::size_t width) : width_(static_cast<std::uint32_t>(width)) {
+        first.edition = 1, second.edition = 2;
+        tell(std::move(first));
+        auto& tile = comes_.emplace_back();
+        tile.node = 2, tile.width = width_, tile.edition = 2;
+        tile.questions = std::make_shared<const std::vector<Tile>>(1, Tile{0, 0, 8, 8, 0, 1});
+        for (int i = 0; i < 5; ++i) comes_.emplace_back();  // nothing
+        tell(std::move(second));
+    }
+    bool ask(const PlaceAt& to, Message& message) override {
+        asked.push_back(to.host + " by " + std::to_string(message.edition));
+        return true;
+    }
+    void reply(Message) override {}
+    std::optional<Message> receive() override {
+        if (comes_.empty()) return ask_for_the_end();
+        auto message = std::move(comes_.front());
+        comes_.pop_front();
+        message.run = 1;
+        if (message.type == Message::Type::ask && message.edition == 0) return std::nullopt;
+        return message;
+    }
+    void wait(std::chrono::nanoseconds) override { ++waits_; }
+    void forget(const PlaceAt&) override {}
+    const Counters& counters() const override { return none_; }
+
+    std::vector<std::string> asked;
+
+private:
+    void tell(Plan plan) {
+        auto& message = comes_.emplace_back();
+        message.type = Message::Type::plan, message.plan = std::make_shared<const Plan>(std::move(plan));
+    }
+    std::optional<Message> ask_for_the_end() {
+        if ((asked.empty() && waits_ < 1000) || std::exchange(ended_, true)) return std::nullopt;
+        Message message;
+        message.type = Message::Type::stop, message.run = 1;
+        return message;
+    }
+
+    std::uint32_t width_;  // colours of a pixel
+    std::deque<Message> comes_;
+    bool ended_ = false;
+    int waits_ = 0;
+    Counters none_;
+};
+
+// An ask may come by another line than the plan that its asker goes by. By the plan before, the node would be asked
+// where it has been taken away.
+TEST(Place, AsksByNoOlderPlanThanWhoAsksIt) {
+    const Registry registry = kinds();
+    const Graph graph = graph_of(registry);
+    const Network network{graph, registry, std::make_shared<const Scene>(test::furnace(0.5f, 1), SceneOptions{}), 1};
+    const std::vector<PlaceAt> places{{"a", 0}, {"b", 0}, {"c", 0}};
+    const Plan first{places, {{}, {1}, {0}}}, second{places, {{}, {2}, {0}}};
+    Gauge gauge(graph.nodes.size(), asking_edges(graph, network.layers, registry).size());
+    Overtaking carrier(first, second, colours_of(network.layers));
+    std::atomic<bool> stop{false};
+    std::atomic<std::uint64_t> progress{0};
+    Place(network, places[0], first, 1, {}, carrier, gauge, Place::Asks::when_told).serve(stop, progress);
+    ASSERT_FALSE(carrier.asked.empty());
+    for (const auto& asked : carrier.asked) EXPECT_EQ(asked, "c by 2");
+}
+
+/// All comes at once; the run ends when all is answered.
+class AllAtOnce final : public Carrier {
+public:
+    bool ask(const PlaceAt&, Message&) override { return false; }
+    void reply(Message message) override { replies.push_back(std::move(message)); }
+    std::optional<Message> receive() override {
+        if (asks.empty() && (replies.size() < asked_ || std::exchange(ended_, true))) return std::nullopt;
+        Message message;
+        if (asks.empty()) {
+            message.type = Message::Type::stop;
+        } else {
+            message = std::move(asks.front());
+            asks.pop_front();
+            message.node = slow, message.bundle = ++asked_;
+        }
+        message.run = 1;
+        return message;
+    }
+    void wait(std::chrono::nanoseconds) override {}
+    void forget(const PlaceAt&) override {}
+    const Counters& counters() const override { return none_; }
+
+    std::deque<Message> asks;
+    std::vector<Message> replies;
+
+private:
+    std::size_t asked_ = 0;
+    bool ended_ = false;
+    Counters none_;
+};
+
+// A place that has much to do gets to some of it only when nobody may ask any more: with a failure, its host would be
+// taken out of the run.
+TEST(Place, AnswersWhatWasAskedBeforeItsNodeLeaves) {
+    const Registry registry = kinds();
+    const Graph graph = graph_of(registry);
+    const Network network{graph, registry, std::make_shared<const Scene>(test::furnace(0.5f, 1), SceneOptions{}), 1};
+    const Plan plan{{{"", 0}}, std::vector<std::vector<std::uint32_t>>(graph.nodes.size(), {0})};
+    Gauge gauge(graph.nodes.size(), asking_edges(graph, network.layers, registry).size());
+    AllAtOnce carrier;
+    carrier.asks.emplace_back().questions = std::make_shared<const std::vector<Query>>(64);
+    const auto step = [&](Step::Kind kind) {
+        carrier.asks.emplace_back().questions = std::make_shared<const std::vector<Step>>(std::vector<Step>{{kind}});
+    };
+    step(Step::Kind::leave);
+    step(Step::Kind::prepare);  // it comes back, and waits for its shards
+    std::atomic<bool> stop{false};
+    std::atomic<std::uint64_t> progress{0};
+    Place(network, plan.places[0], plan, 1, {}, carrier, gauge).serve(stop, progress);
+    ASSERT_EQ(carrier.replies.size(), 3u);
+    EXPECT_EQ(carrier.replies[0].bundle, 1u);
+    EXPECT_EQ(carrier.replies[0].answers, std::vector<Rgb>(64, Rgb{1, 1, 1})) << carrier.replies[0].trouble.why;
+    EXPECT_EQ(carrier.replies[1].bundle, 2u);
+    EXPECT_EQ(carrier.replies[2].bundle, 3u);
+}
+
 // A shard takes as long as thousands of questions: askers would think that these take as long.
 TEST(Place, TellsHowLongAQuestionTakesWhateverShardsTook) {
     const Registry registry = kinds();

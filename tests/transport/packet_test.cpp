@@ -34,6 +34,7 @@ Message light_ask(std::size_t count) {
     }
     Message message;
     message.run = 77, message.channel = 3, message.bundle = 12, message.node = 4, message.width = 2;
+    message.edition = 6;
     message.questions = Questions<Query>(queries);
     return message;
 }
@@ -101,6 +102,7 @@ TEST(Packet, BringsQuestionsBackBitForBit) {
     EXPECT_EQ(got->bundle, 12u);
     EXPECT_EQ(got->node, 4u);
     EXPECT_EQ(got->width, 2u);
+    EXPECT_EQ(got->edition, 6u);
     EXPECT_EQ(packet::peek_header(packed.header)->place, 5u);
 }
 

@@ -69,6 +69,7 @@ Buffer write_header(const Header& header, View body) {
     writer.put(header.count);
     writer.put(header.fill);
     writer.put(header.service_ns);
+    writer.put(header.edition);
     writer.put(static_cast<std::uint32_t>(body.size()));
     writer.put(checksum(out, body));
     return out;
@@ -109,6 +110,7 @@ Message message_of(const Header& header) {
     message.node = header.node;
     message.width = header.width;
     message.load = {header.fill, header.service_ns};
+    message.edition = header.edition;
     return message;
 }
 
@@ -138,6 +140,7 @@ std::optional<Header> peek_header(View bytes) {
     header.count = reader.get<std::uint32_t>();
     header.fill = reader.get<std::uint32_t>();
     header.service_ns = reader.get<std::uint32_t>();
+    header.edition = reader.get<std::uint32_t>();
     return header;
 }
 
@@ -155,6 +158,7 @@ Packet pack(const Message& message, std::uint32_t place) {
     header.run = message.run, header.bundle = message.bundle, header.channel = message.channel;
     header.node = message.node, header.place = place, header.width = message.width;
     header.fill = message.load.fill, header.service_ns = message.load.service_ns;
+    header.edition = message.edition;
     Buffer body;
     const auto ask = [&](Type type, const auto& questions) {
         header.type = type;

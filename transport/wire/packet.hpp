@@ -1,7 +1,7 @@
 // The protocol, on one page. ROUTER answers, DEALER asks. On the wire a packet is two frames, behind the route (and, on
 // its way through the launcher, behind the sealed address of relay_address.hpp):
 //
-//   header   64 bytes, little-endian, in the order of the members of Header
+//   header   68 bytes, little-endian, in the order of the members of Header
 //   body     a msgpack map. Asks: columns, see columns.hpp. Replies: colours, see colours.hpp. Control: small maps
 //            of numbers and texts; unknown keys are skipped.
 //
@@ -14,7 +14,7 @@
 // nobody else can plan, end, feed or question it. Strangers are told 0.
 //
 // Every size is checked before anything is allocated, and a packet that breaks a rule is dropped and counted.
-// Version 2. A peer of another version is refused at HELLO, with a text that names both.
+// Version 3. A peer of another version is refused at HELLO, with a text that names both.
 #pragma once
 
 #include <cstddef>
@@ -34,8 +34,8 @@
 namespace lightnet::packet {
 
 inline constexpr std::uint32_t magic = 0x54454e4c;  // "LNET"
-inline constexpr std::uint16_t version = 2;
-inline constexpr std::size_t header_size = 64;
+inline constexpr std::uint16_t version = 3;
+inline constexpr std::size_t header_size = 68;
 inline constexpr std::size_t most_bytes = 64 << 20;  // in one body
 
 enum class Type : std::uint8_t {
@@ -120,6 +120,7 @@ struct Header {
     std::uint32_t count = 0;       // questions, or colours of an answer
     std::uint32_t fill = 0;        // questions that wait at the answerer; in an ask, with the next: who asks
     std::uint32_t service_ns = 0;  // per question
+    std::uint32_t edition = 0;     // of an ask: of the plan by which the asker goes
 };
 
 /// Header and body, ready to be sent.

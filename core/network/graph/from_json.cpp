@@ -138,7 +138,7 @@ Hosts hosts_from_json(std::string_view text) {
 
 Plan plan_from_json(std::string_view text) {
     const Json json = parse_json(text, plan_limits);
-    json.object(5);
+    json.object(6);
     Plan plan;
     for (const auto& place : json.at("places").list()) {
         const auto& at = place.list(2);
@@ -155,6 +155,7 @@ Plan plan_from_json(std::string_view text) {
     take_strategies(json.at("strategies"), plan);
     for (const auto& [host, process] : json.at("processes").object())
         plan.processes[host] = process.whole<std::uint64_t>();
+    plan.edition = json.at("edition").whole<std::uint32_t>();
     return plan;
 }
 

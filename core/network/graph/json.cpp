@@ -113,7 +113,8 @@ std::string to_json(const Plan& plan) {
                  {"places_of", plan.places_of},
                  {"strategy", name_of(plan.strategy)},
                  {"strategies", std::move(strategies)},
-                 {"processes", plan.processes}});
+                 {"processes", plan.processes},
+                 {"edition", plan.edition}});
 }
 
 std::string to_json(const std::vector<Problem>& problems) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/film/addition.hpp"
@@ -81,6 +82,7 @@ struct Plan {
 
     std::map<std::string, std::uint64_t> processes{};  // host → which process serves there, as far as is known: who
                                                        // comes back as the same one had not died
+    std::uint32_t edition = 0;  // how many were in force before it, of this run; 0: it is not in force
 
     std::uint64_t process_of(const std::string& host) const {
         const auto known = processes.find(host);
@@ -90,7 +92,13 @@ struct Plan {
         const auto own = strategies.find(static_cast<std::uint32_t>(node));
         return own == strategies.end() ? strategy : own->second;
     }
-    friend bool operator==(const Plan&, const Plan&) = default;
+    /// Do they say the same? Whatever their editions.
+    friend bool operator==(const Plan& a, const Plan& b) {
+        const auto said = [](const Plan& plan) {
+            return std::tie(plan.places, plan.places_of, plan.strategy, plan.strategies, plan.processes);
+        };
+        return said(a) == said(b);
+    }
 };
 
 /// How many places a host offers.

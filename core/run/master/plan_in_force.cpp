@@ -113,6 +113,7 @@ bool PlanInForce::enforce(const std::set<NodeCopy>* rehearsing) {
     const bool lately = steady_seconds() - enforced_ < at_most_held_back;
     if (lately && plan != state_.proposed && is_hardly_more(plan, state_.in_force)) return false;
     enforced_ = steady_seconds();
+    plan.edition = state_.in_force.edition + 1;
     state_.in_force = std::move(plan);
     return true;
 }

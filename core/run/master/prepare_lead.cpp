@@ -20,7 +20,7 @@ PrepareLead::PrepareLead(PrepareOptions options, Carrier& carrier, Carrier& mast
     : masters_(masters),
       state_(*options.graph, *options.registry),
       calls_(*options.graph, options.made_from, options.cache, renewed_nodes(*options.graph, *options.registry)),
-      steps_(options.run, carrier),
+      steps_(options.run, state_.in_force, carrier),
       shards_({options.run, options.verify, state_, calls_, carrier}),
       rehearsals_({options.run, options.width, *options.registry, state_, calls_, steps_, masters, epoch}),
       departed_(state_, steps_, shards_, options.let_go_after),

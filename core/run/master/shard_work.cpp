@@ -106,6 +106,7 @@ void ShardWork::deal(std::size_t position) {
     const auto node = at_.state.order.node(position);
     for (auto work = works_.lower_bound({node, 0}); work != works_.end() && work->first.first == node; ++work) {
         const auto all = at_.state.copies(position);
+        for (const auto& [copy, line] : work->second.lines) line.channel->go_by(at_.state.in_force.edition);
         work->second.copies = all.size();
         work->second.more = at_.carrier.expects_hosts() ||
                             std::ranges::any_of(all, [&](const auto& copy) { return will_join(copy, work->first); });

@@ -14,6 +14,7 @@ bool StepLine::send(const SentStep& sent, const Bytes& data) {
     message.channel = channel;
     message.bundle = next_;
     message.width = sent.step.kind == Step::Kind::attend ? 0 : 1;
+    message.edition = in_force_.edition;
     message.node = static_cast<std::uint32_t>(sent.to.node);
     message.questions = std::make_shared<const std::vector<Step>>(1, sent.step);
     message.data = data;

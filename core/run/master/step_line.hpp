@@ -29,7 +29,9 @@ public:
     /// That of no master, nor of shards.
     static constexpr std::uint32_t channel = Epoch::own(Epoch::most_channels - 1);
 
-    StepLine(std::uint64_t run, Carrier& carrier) : run_(run), carrier_(carrier) {}
+    /// Whoever is asked has heard of `in_force` before; it outlives the line.
+    StepLine(std::uint64_t run, const Plan& in_force, Carrier& carrier)
+        : run_(run), in_force_(in_force), carrier_(carrier) {}
 
     /// False: it can't be sent now. `data` goes along.
     bool send(const SentStep& sent, const Bytes& data = nullptr);
@@ -52,6 +54,7 @@ private:
     using Part = std::tuple<std::size_t, Step::Kind, std::uint32_t>;  // position, kind, call
 
     std::uint64_t run_;
+    const Plan& in_force_;
     Carrier& carrier_;
     std::map<std::uint64_t, SentStep> sent_;
     std::uint64_t next_ = 1;

@@ -74,6 +74,7 @@ struct Message {
     std::uint32_t node = 0;     // index in the graph
     std::uint32_t width = 1;    // colours per question that are wanted; 0: nobody waits for the reply
     std::uint64_t asker = 0;    // of an ask: name_of() the asking place; 0: the launcher
+    std::uint32_t edition = 0;  // of an ask: of the plan in force that the asker goes by; see AsksOfLaterPlans
     std::variant<std::monostate, Questions<Query>, Questions<Tile>, Questions<Step>> questions;
     std::vector<Rgb> answers;
     Bytes data;  // what a step is about, or its answer

@@ -108,6 +108,8 @@ void Dispatcher::use(const Plan& plan) {
         if (!lost.empty()) desk.cancel(lost);
         desk.connect();
     });
+    for (auto& ask : later_.due(plan_.edition))
+        if (!lost.contains(ask.asker)) take(std::move(ask));
 }
 
 template <class Question>
@@ -122,7 +124,7 @@ void Dispatcher::take(Message message) {
     if (message.run != run_) return;
     switch (message.type) {
         case Message::Type::ask:
-            if (message.node >= plan_.places_of.size()) return;
+            if (message.node >= plan_.places_of.size() || later_.keep(message, plan_.edition)) return;
             if (std::holds_alternative<Questions<Query>>(message.questions))
                 take(std::move(message), light_, light_channels_);
             else if (std::holds_alternative<Questions<Tile>>(message.questions))

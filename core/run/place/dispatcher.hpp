@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/run/message/asks_in_hand.hpp"
+#include "core/run/message/asks_of_later_plans.hpp"
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/run/schedule/multiplexer.hpp"
@@ -85,6 +86,7 @@ private:
     Carrier& carrier_;
     std::function<double()> clock_;
     bool stopping_ = false;
+    AsksOfLaterPlans later_;
     Counters counters_, dealt_;
     RemoteChannels<Query> light_channels_;
     RemoteChannels<Tile> image_channels_;

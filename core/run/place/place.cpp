@@ -42,7 +42,9 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       assembly_(network, [this](std::size_t node, std::size_t width) { return ports_.port_to(node, width); },
                 {.locks = &locks_, .concurrent = &rounds_, .whereabouts = [this] { return whereabouts(); }},
                 {.meter = &meter_}),
-      preparer_(network, assembly_, fibers_, {my_name(), wake(), reply(), [this] { look(); }}),
+      preparer_(network, assembly_, fibers_,
+                {my_name(), wake(), reply(), [this] { look(); },
+                 [this](std::size_t node) { return inbox_.owes_answers(node); }}),
       answerer_({network, assembly_, preparer_, me_.host, my_name(), counters_.tiles}) {
     assembly_.show(gauge);
     meter_.tell_learning([this](std::size_t node) {
@@ -83,6 +85,7 @@ Whereabouts Place::whereabouts() const {
 void Place::use(const Plan& plan) {
     const auto before = std::exchange(plan_, plan);
     ports_.use(plan);
+    for (auto& ask : inbox_.later().due(plan.edition)) take(std::move(ask));
     inbox_.cancel(lost_names(before, plan));
 }
 
@@ -201,6 +204,7 @@ void Place::take(Message message) {
     switch (message.type) {
         case Message::Type::ask: {
             if (message.run != run_ || !inbox_.knows(message.node)) return;
+            if (inbox_.later().keep(message, plan_.edition)) return;
             const auto* steps = std::get_if<Questions<Step>>(&message.questions);
             // Whoever asks what has left has not heard of several plans: he asks others when nobody answers.
             if (!steps && preparer_.has_left(message.node)) return void(++counters_.cancelled);

@@ -10,6 +10,7 @@
 #include "core/run/assembly/assembly.hpp"
 #include "core/run/assembly/gauge.hpp"
 #include "core/run/message/asks_in_hand.hpp"
+#include "core/run/message/asks_of_later_plans.hpp"
 #include "core/run/message/counters.hpp"
 #include "core/run/message/message.hpp"
 #include "core/run/message/tuning.hpp"
@@ -31,6 +32,8 @@ public:
 
     /// Twice the same counts once.
     void take(Message ask);
+    /// Those that wait for their plan, before they are taken.
+    AsksOfLaterPlans& later() { return later_; }
     /// Nobody waits any more for answers to places of these names, see name_of().
     void cancel(const std::set<std::uint64_t>& lost);
     /// Asks of one node, of renderers or of others, which belong together; empty: there are none that may be begun.
@@ -50,6 +53,8 @@ public:
     Route let_go(const AsksInHand::Name& name) { return in_hand_.let_go(name); }
 
     bool knows(std::size_t node) const { return node < nodes_.size(); }
+    /// Was it asked something that is not answered yet?
+    bool owes_answers(std::size_t node) const { return nodes_[node].questions > 0; }
     /// Questions that no fiber works on.
     std::size_t waiting() const;
     /// What was answered, by node.
@@ -68,6 +73,7 @@ private:
     bool may_begin(std::size_t node) const;
 
     Lent at_;
+    AsksOfLaterPlans later_;
     AsksInHand in_hand_;
     std::vector<OfNode> nodes_;
     std::vector<std::size_t> by_rank_;  // nodes, lowest rank first

@@ -230,13 +230,29 @@ void Preparer::leave(Message ask) {
         known->second->cancel();
         nodes_.erase(known);
     }
-    assembly_.leave(ask.node);
     left_.insert(ask.node);
-    place_.reply(reply_to(ask));
+    to_let_go_.push_back(std::move(ask));
+}
+
+bool Preparer::let_go() {
+    const auto ready =
+        std::ranges::find_if(to_let_go_, [&](const Message& ask) { return !place_.owes_answers(ask.node); });
+    if (ready == to_let_go_.end()) return false;
+    const auto node = ready->node;
+    assembly_.leave(node);
+    place_.reply(reply_to(*ready));
+    to_let_go_.erase(ready);
+    std::deque<Message> waited;
+    std::erase_if(to_let_go_,
+                  [&](Message& ask) { return ask.node == node && (waited.push_back(std::move(ask)), true); });
+    for (auto& ask : waited) take(std::move(ask));
+    return true;
 }
 
 void Preparer::take(Message ask) {
     const std::size_t index = ask.node;
+    const auto is_of_it = [&](const Message& other) { return other.node == index; };
+    if (std::ranges::any_of(to_let_go_, is_of_it)) return to_let_go_.push_back(std::move(ask));
     if (step_of(ask).kind == Step::Kind::leave) return leave(std::move(ask));
     const auto pass = pass_of_call(step_of(ask).call);
     auto& known = nodes_[index];
@@ -264,6 +280,7 @@ std::uint64_t Preparer::result_bytes() const {
 }
 
 bool Preparer::start_next() {
+    if (let_go()) return true;
     if (to_start_.empty()) return false;
     const auto node = to_start_.front();
     to_start_.pop_front();

@@ -26,14 +26,16 @@ public:
         std::string name;
         std::function<void(Fibers::Fiber*)> resume;  // as soon as the place gets to it
         std::function<void(Message)> reply;
-        std::function<void()> look;  // throws Cancelled when the place is to stop; any thread
+        std::function<void()> look;                          // throws Cancelled when the place is to stop; any thread
+        std::function<bool(std::size_t node)> owes_answers;  // what was asked of it before waits, or is at work
     };
     Preparer(const Network& network, Assembly& assembly, Fibers& fibers, PlaceHooks place);
     ~Preparer();
 
-    /// A step of any kind but shards.
+    /// A step of any kind but shards. A node that is to leave does so when it has answered what it was asked before,
+    /// and what is to be done with it afterwards waits for that.
     void take(Message ask);
-    /// Begins one prepare() that has been asked for. Outside fibers only. False: there is none.
+    /// Begins one prepare() that has been asked for, or lets go of a node. Outside fibers only. False: there is none.
     bool start_next();
     /// Does shards, in a fiber of the node: the first, and as many more of them as take little time and room; whoever
     /// asked hands out the others again. Throws Error when the node does not wait for them.
@@ -61,8 +63,10 @@ private:
     std::map<std::size_t, std::shared_ptr<Node>> nodes_;  // as they prepare for the latest pass
     std::deque<std::shared_ptr<Node>> to_start_;
     void leave(Message ask);
+    bool let_go();
 
-    std::set<std::size_t> left_;  // nodes
+    std::set<std::size_t> left_;     // nodes
+    std::deque<Message> to_let_go_;  // the steps that say so, each with those behind it for its node
     std::map<std::size_t, Spent> spent_;
 };
 

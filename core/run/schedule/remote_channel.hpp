@@ -34,6 +34,8 @@ public:
     RemoteChannel(Carrier& carrier, Address address, Credit credit, Counters& counters)
         : carrier_(carrier), address_(std::move(address)), to_(address_.place), credit_(credit), counters_(counters) {}
 
+    /// The edition of the plan by which it is asked from now on.
+    void go_by(std::uint32_t edition) { edition_ = edition; }
     /// The places behind it, by index. Where it is one, that is asked itself: there is nothing to choose.
     void use(const std::vector<std::uint32_t>& places) {
         places_ = static_cast<std::uint32_t>(places.size());
@@ -49,6 +51,7 @@ public:
         message.node = address_.node;
         message.width = bundle.width;
         message.asker = address_.asker;
+        message.edition = edition_;
         message.questions = bundle.questions;
         if (!carrier_.ask(to_, message)) return false;
         owner_ = bundle.owner;
@@ -95,7 +98,7 @@ private:
     Carrier& carrier_;
     Address address_;
     PlaceAt to_;
-    std::uint32_t places_ = 1;
+    std::uint32_t places_ = 1, edition_ = 0;
     Credit credit_;  // of one place
     Counters& counters_;
     Load load_;

@@ -53,6 +53,7 @@ public:
             const auto number = before == edge.known.end() ? open(edge, at, plan.process_of(at.host)) : before->second;
             known.emplace(at, number);
             channel(number).use(places);
+            channel(number).go_by(plan.edition);
             replicas.push_back(&channel(number));
         }
         for (const auto& place : plan.places) {
