@@ -23,6 +23,12 @@ pkg_check_modules(blosc REQUIRED IMPORTED_TARGET blosc)   # packed grids (core/r
 pkg_check_modules(libjpeg QUIET libjpeg)                   # its full version: decoders differ in bits
 pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)     # packed meshes (core/readers/gltf)
 find_package(meshoptimizer 0.18 REQUIRED CONFIG)           # the same, by another packer
+find_path(OPENSUBDIV_INCLUDE_DIR opensubdiv/version.h REQUIRED)   # smooth surfaces of cages (core/readers/common)
+find_library(OPENSUBDIV_LIBRARY osdCPU REQUIRED)           # its config file names static libraries that no package has
+file(STRINGS "${OPENSUBDIV_INCLUDE_DIR}/opensubdiv/version.h" OPENSUBDIV_VERSION REGEX "define OPENSUBDIV_VERSION_NUMBER")
+add_library(opensubdiv INTERFACE)
+target_link_libraries(opensubdiv INTERFACE "${OPENSUBDIV_LIBRARY}")
+target_include_directories(opensubdiv SYSTEM INTERFACE "${OPENSUBDIV_INCLUDE_DIR}")
 find_package(pugixml REQUIRED)                             # scenes in XML (core/readers/mitsuba)
 find_package(Boost 1.74 REQUIRED COMPONENTS context)       # fibers (core/fiber); Beast: HTTP (tools/watch)
 find_package(Eigen3 3.4 REQUIRED CONFIG)                # least squares (core/film)

@@ -12,6 +12,7 @@ packages=(
     libjemalloc-dev                                     # memory in large pages
     libeigen3-dev                                       # linear equations
     libdraco-dev libmeshoptimizer-dev                   # packed meshes
+    libosd-dev                                          # smooth surfaces of cages
     libpugixml-dev zlib1g-dev                           # scenes in XML
     libblosc-dev                                        # packed grids
     libboost-dev libboost-context-dev libzmq3-dev cppzmq-dev libmsgpack-cxx-dev libssl-dev libxxhash-dev   # fibers, HTTP, sockets, hashes

@@ -9,7 +9,7 @@ set(flags "${flags} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${config}}")
 string(REGEX REPLACE "(^|[ ;])-(W|g|f(diagnostics|file-prefix-map|debug))[^ ;]*" " " flags "${flags}")
 string(REGEX REPLACE "[ ;]+" " " flags "${flags}")
 # Decoders that give what a texture or a mesh is; libm is asked for its answers (core/run/assembly/fingerprint.hpp).
-string(SHA256 LIGHTNET_FLAGS_HASH "${flags}, OpenEXR ${OpenEXR_VERSION}, JPEG ${libjpeg_VERSION}, PNG ${PNG_VERSION_STRING}, TIFF ${TIFF_VERSION_STRING}, WebP ${webp_libwebp_VERSION}, GIF ${GIF_VERSION}, draco ${draco_VERSION}, meshoptimizer ${meshoptimizer_VERSION}")
+string(SHA256 LIGHTNET_FLAGS_HASH "${flags}, OpenEXR ${OpenEXR_VERSION}, JPEG ${libjpeg_VERSION}, PNG ${PNG_VERSION_STRING}, TIFF ${TIFF_VERSION_STRING}, WebP ${webp_libwebp_VERSION}, GIF ${GIF_VERSION}, draco ${draco_VERSION}, meshoptimizer ${meshoptimizer_VERSION}, ${OPENSUBDIV_VERSION}")
 string(SUBSTRING "${LIGHTNET_FLAGS_HASH}" 0 6 LIGHTNET_FLAGS_HASH)
 set(LIGHTNET_EMBREE_VERSION "${embree_VERSION}")
 

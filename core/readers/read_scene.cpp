@@ -106,7 +106,11 @@ SceneData read(Files& files, const std::string& path, const SceneConstants& cons
         others.erase(std::string(time_constant));
         return read(files, path, others, formats);
     }
-    if (!constants.empty() && !(format && format->has_variables))
+    const auto is_subdivision = [](const auto& constant) { return constant.first.starts_with(subdivision_constant); };
+    if (format && !format->subdivides && std::ranges::any_of(constants, is_subdivision))
+        throw UserError({path, 0},
+                        "'subdivision' is of '.obj' files: of others not all faces are kept as they were made");
+    if (!std::ranges::all_of(constants, is_subdivision) && !(format && format->has_variables))
         throw UserError({path, 0}, "only " + with_variables(formats) + " have variables: there is no '" +
                                        constants.begin()->first + "' to define");
     if (!format) throw UserError({path, 0}, "a scene must be a " + endings_text(formats) + " file");

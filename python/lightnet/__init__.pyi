@@ -663,6 +663,8 @@ class Scene(Node):
         values for variables of the file (Mitsuba's <default>s), by their names
     variant: text
         one of several variants of the file's materials (glTF), by its name
+    subdivision: table
+        how often faces of objects of an OBJ file are split, 0 to 8 times, into a smooth surface (Catmull and Clark's): by the objects' names, * for any part of one; 3 where the file has tags of subdivision
     pbrt: integer, 3.0 … 4.0
         the version of pbrt, 3 or 4, whose meaning a .pbrt file has; else what it says by itself tells
     animation: text
@@ -705,6 +707,7 @@ class Scene(Node):
         exposure: float | None = ...,
         constants: Mapping[str, Any] | None = ...,
         variant: str | None = ...,
+        subdivision: Mapping[str, Any] | None = ...,
         pbrt: int | None = ...,
         animation: str | None = ...,
         time: float | None = ...,

@@ -128,6 +128,12 @@ Kind scene_kind() {
          .type = ParamType::text,
          .help = "one of several variants of the file's materials (glTF), by its name",
          .optional = true},
+        {.name = "subdivision",
+         .type = ParamType::table,
+         .help =
+             "how often faces of objects of an OBJ file are split, 0 to 8 times, into a smooth surface (Catmull and "
+             "Clark's): by the objects' names, * for any part of one; 3 where the file has tags of subdivision",
+         .optional = true},
         {.name = "pbrt",
          .type = ParamType::integer,
          .help = "the version of pbrt, 3 or 4, whose meaning a .pbrt file has; else what it says by itself tells",

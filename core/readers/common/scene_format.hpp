@@ -20,6 +20,8 @@ using SceneConstants = std::map<std::string, std::string>;
 inline constexpr std::string_view time_constant = "@time", animation_constant = "@animation",
                                   shutter_constant = "@shutter", previous_constant = "@previous",
                                   next_constant = "@next";
+/// Before the name of an object: how often its faces are split.
+inline constexpr std::string_view subdivision_constant = "@subdivision ";
 
 /// One folder of core/readers, and one line in the table of read_scene.cpp; or brought by a plugin.
 struct SceneFormat {
@@ -27,6 +29,7 @@ struct SceneFormat {
     std::string_view maker{};               // whose format it is, where the ending does not tell
     bool has_variables = false;             // else it is given no constants
     bool moves = false;                     // else it is not told of which time and animation it is to be read
+    bool subdivides = false;                // else it is not told of what is subdivided
     /// Reads the main file of a scene and all that it names, through `files` alone. Throws UserError with all that is
     /// wrong; approximations stand in the scene's warnings.
     SceneData (*read)(Files& files, const std::string& path, const SceneConstants& constants) = nullptr;

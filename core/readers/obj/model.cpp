@@ -14,6 +14,7 @@
 
 #include "core/base/unwanted.hpp"
 #include "core/readers/common/mesh_tools.hpp"
+#include "core/readers/obj/cages.hpp"
 #include "core/readers/obj/lines.hpp"
 #include "core/scene/reach.hpp"
 
@@ -37,13 +38,7 @@ void decode(Part& part, Report& report) {
         colour = {from_srgb(colour.r / 255), from_srgb(colour.g / 255), from_srgb(colour.b / 255)};
 }
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
-
-/// A corner of a face: indices into the file's lists.
-struct Corner {
-    std::uint32_t position = none, uv = none, normal = none;
-    friend bool operator==(const Corner&, const Corner&) = default;
-};
+constexpr std::uint32_t none = Corner::none;
 
 struct Mix {
     std::size_t operator()(const Corner& c) const {
@@ -132,10 +127,20 @@ private:
     bool names_later_ = false;
 };
 
+/// Does a line begin with a tag of subdivision?
+bool has_tags(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return text.find("\nt ") != text.npos;
+}
+
 class ModelReader {
 public:
-    ModelReader(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report)
-        : lines_(bytes, file), cut_(cut), report_(report) {}
+    ModelReader(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report,
+                const std::vector<Subdivision>& subdivided)
+        : lines_(bytes, file),
+          cut_(cut),
+          report_(report),
+          cages_(subdivided, cut == Cut::by_material && has_tags(bytes)) {}
 
     Model read() {
         while (!report_.full() && lines_.next()) {
@@ -146,7 +151,8 @@ public:
         Model model;
         for (auto& part : parts_)
             if (!part.part.mesh.triangles.empty()) model.parts.push_back(finished(std::move(part)));
-        if (std::ranges::any_of(colours_, [](Rgb colour) { return max_component(colour) > 1; }))
+        for (Part& part : cages_.finish(lists_, lines_.where().file, report_)) model.parts.push_back(std::move(part));
+        if (std::ranges::any_of(lists_.colours, [](Rgb colour) { return max_component(colour) > 1; }))
             for (Part& part : model.parts) decode(part, report_);
         model.libraries = std::move(libraries_);
         return model;
@@ -157,10 +163,11 @@ private:
     struct Open {
         Part part;
         std::unordered_map<Corner, std::uint32_t, Mix> vertices;
-        bool normals = false, uvs = false;
+        bool normals = false, uvs = false, subdivided = false;
     };
     /// A face of vertices that come later, and what held where it stands.
     struct Waiting {
+        std::size_t number = 0;  // of the face
         std::string words;
         SourceLine where;
         std::string object, material;
@@ -177,6 +184,7 @@ private:
         if (word == "mtllib") return libraries_.push_back({std::string(trimmed(lines_.rest(), "\"")), lines_.where()});
         if (word == "s") return smooth();
         if (word == "o") return object();
+        if (word == "t" && cut_ == Cut::by_material) return cages_.tag(lines_, report_);
         if (word == "g" || word == "vp" || has_no_effect(word)) return;
         if (word == "l" || word == "p")
             report_.warn(lines_.where(), "lines and points have no surface and are left out");
@@ -195,8 +203,8 @@ private:
     }
 
     void vertex() {
-        positions_.push_back(triple("a vertex").value_or(Vec3{}));
-        if (!in_reach(positions_.back())) report_.error(lines_.where(), "the vertex lies out of reach");
+        lists_.positions.push_back(triple("a vertex").value_or(Vec3{}));
+        if (!in_reach(lists_.positions.back())) report_.error(lines_.where(), "the vertex lies out of reach");
         std::vector<float> more;
         while (const auto value = lines_.number(report_)) more.push_back(*value);
         // "x y z", "x y z w" with a weight of curves, "x y z r g b", "x y z r g b a"
@@ -206,18 +214,18 @@ private:
         if (more.size() == 2 || more.size() > 4) left_out("what stands behind the position of a vertex");
         if (more.size() == 4 && more[3] != 1) left_out("the alpha of a vertex");
         if (more.size() != 3 && more.size() != 4) return;
-        if (colours_.size() + 1 == positions_.size())
-            colours_.push_back({more[0], more[1], more[2]});
+        if (lists_.colours.size() + 1 == lists_.positions.size())
+            lists_.colours.push_back({more[0], more[1], more[2]});
         else
             left_out("the colour of a vertex behind others that have none");
     }
 
-    void normal() { normals_.push_back(triple("a normal").value_or(Vec3{})); }
+    void normal() { lists_.normals.push_back(triple("a normal").value_or(Vec3{})); }
 
     void uv() {
         const auto u = lines_.number(report_), v = u ? lines_.number(report_) : u;
         if (!u) report_.error(lines_.where(), "a texture coordinate needs a number");
-        uvs_.push_back({u.value_or(0), v.value_or(0)});
+        lists_.uvs.push_back({u.value_or(0), v.value_or(0)});
     }
 
     void smooth() {
@@ -236,27 +244,31 @@ private:
         open_ = nullptr;
     }
 
-    Counts counts() const { return {positions_.size(), uvs_.size(), normals_.size()}; }
+    Counts counts() const { return {lists_.positions.size(), lists_.uvs.size(), lists_.normals.size()}; }
 
-    void face() { face(counts(), false); }
+    void face() { face(faces_++, counts(), false); }
 
     /// `so_far`: where it stands; `last`: nothing comes later.
-    void face(const Counts& so_far, bool last) {
+    void face(std::size_t number, const Counts& so_far, bool last) {
         const auto words = lines_.left();
         corners_.clear();
         CornerReader reader(so_far, counts(), last, lines_, report_);
-        Open& open = this->open();
         for (auto word = lines_.word(); !word.empty() && word.front() != '#'; word = lines_.word()) {
             const auto read = reader.read(word);
             if (reader.names_later())
-                return waiting_.push_back({std::string(words), lines_.where(), object_, material_, smooth_, so_far});
+                return waiting_.push_back(
+                    {number, std::string(words), lines_.where(), object_, material_, smooth_, so_far});
             if (!read) return;
-            corners_.push_back(vertex_of(open, *read));
+            corners_.push_back(*read);
         }
         if (corners_.size() < 3)
             return report_.warn(lines_.where(), "faces of fewer than three corners have no surface and are left out");
+        Open& open = this->open();
+        if (open.subdivided) return cages_.add({corners_, number, object_, material_, lines_.where()}, report_);
         auto& mesh = open.part.mesh;
-        triangulate(mesh.positions, corners_, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        vertices_.clear();
+        for (const Corner& corner : corners_) vertices_.push_back(vertex_of(open, corner));
+        triangulate(mesh.positions, vertices_, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             mesh.triangles.push_back({a, b, c});
         });
     }
@@ -268,7 +280,7 @@ private:
             lines_.begin(face.words, face.where.line);
             object_ = std::move(face.object), material_ = std::move(face.material), smooth_ = face.smooth;
             open_ = nullptr;
-            this->face(face.counts, true);
+            this->face(face.number, face.counts, true);
         }
     }
 
@@ -277,7 +289,11 @@ private:
         const auto key = cut_ == Cut::nowhere ? Key() : Key(object_, material_, smooth_);
         const auto [entry, fresh] = index_.try_emplace(key, parts_.size());
         if (fresh)
-            parts_.push_back({{{}, std::get<1>(key), smooth_, lines_.where(), std::get<0>(key)}, {}, false, false});
+            parts_.push_back({{{}, std::get<1>(key), smooth_, lines_.where(), std::get<0>(key)},
+                              {},
+                              false,
+                              false,
+                              cages_.levels(std::get<0>(key)) > 0});
         return *(open_ = &parts_[entry->second]);
     }
 
@@ -285,10 +301,10 @@ private:
         Mesh& mesh = open.part.mesh;
         const auto [entry, fresh] = open.vertices.try_emplace(corner, std::uint32_t(mesh.positions.size()));
         if (!fresh) return entry->second;
-        mesh.positions.push_back(positions_[corner.position]);
-        mesh.uvs.push_back(corner.uv == none ? Vec2{} : uvs_[corner.uv]);
-        mesh.normals.push_back(corner.normal == none ? Vec3{} : normals_[corner.normal]);
-        if (corner.position < colours_.size()) mesh.colours.push_back(colours_[corner.position]);
+        mesh.positions.push_back(lists_.positions[corner.position]);
+        mesh.uvs.push_back(corner.uv == none ? Vec2{} : lists_.uvs[corner.uv]);
+        mesh.normals.push_back(corner.normal == none ? Vec3{} : lists_.normals[corner.normal]);
+        if (corner.position < lists_.colours.size()) mesh.colours.push_back(lists_.colours[corner.position]);
         open.uvs = open.uvs || corner.uv != none;
         open.normals = open.normals || corner.normal != none;
         return entry->second;
@@ -305,23 +321,25 @@ private:
     Lines lines_;
     Cut cut_;
     Report& report_;
-    std::vector<Vec3> positions_, normals_;
-    std::vector<Vec2> uvs_;
-    std::vector<Rgb> colours_;
+    Mesh lists_;  // of the file, which its faces name
     std::vector<Library> libraries_;
     std::string object_, material_;
     bool smooth_ = false;
     std::vector<Open> parts_;
     std::map<Key, std::size_t> index_;
     Open* open_ = nullptr;  // one of parts_; null: to be looked up
-    std::vector<std::uint32_t> corners_;
+    Cages cages_;
+    std::size_t faces_ = 0;
+    std::vector<Corner> corners_;          // of one face
+    std::vector<std::uint32_t> vertices_;  // these in its mesh
     std::vector<Waiting> waiting_;
 };
 
 }  // namespace
 
-Model read_model(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report) {
-    return ModelReader(bytes, file, cut, report).read();
+Model read_model(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report,
+                 const std::vector<Subdivision>& subdivided) {
+    return ModelReader(bytes, file, cut, report, subdivided).read();
 }
 
 }  // namespace lightnet::obj

@@ -6,18 +6,10 @@
 #include <vector>
 
 #include "core/readers/common/report.hpp"
+#include "core/readers/obj/part.hpp"
 #include "core/scene/data/scene_data.hpp"
 
 namespace lightnet::obj {
-
-/// Faces of one material and one object. Shading normals are as in the file, or empty.
-struct Part {
-    Mesh mesh;
-    std::string material;  // "": the file names none
-    bool smooth = false;   // a smoothing group is on
-    SourceLine where;
-    std::string object{};  // "": the file names none
-};
 
 struct Library {
     std::string name;  // or several
@@ -29,11 +21,13 @@ struct Model {
     std::vector<Library> libraries;
 };
 
-/// What the parts are cut by.
+/// What the parts are cut by; where nothing, tags of subdivision have no meaning.
 enum class Cut { by_material, nowhere };
 
-/// Reads v, vn, vt, f with indices from both ends, g, o, s, usemtl and mtllib; polygons are cut into triangles. What is
-/// wrong is reported with its line and left out.
-Model read_model(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report);
+/// Reads v, vn, vt, f with indices from both ends, g, o, s, usemtl, mtllib and tags of subdivision (t); polygons are
+/// cut into triangles, or objects subdivided where the file or somebody says so. What is wrong is reported with its
+/// line and left out.
+Model read_model(std::span<const std::byte> bytes, const std::string& file, Cut cut, Report& report,
+                 const std::vector<Subdivision>& subdivided = {});
 
 }  // namespace lightnet::obj

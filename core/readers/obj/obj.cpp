@@ -122,13 +122,27 @@ private:
     std::vector<std::string_view> words_;
 };
 
-SceneData read(Files& files, const std::string& path, const SceneConstants&) {
+std::vector<Subdivision> subdivisions_of(const SceneConstants& constants, const std::string& path) {
+    constexpr int most = 8;
+    std::vector<Subdivision> wanted;
+    for (const auto& [name, value] : constants) {
+        const auto object = name.substr(subdivision_constant.size());
+        if (value.size() != 1 || value[0] < '0' || value[0] > '0' + most)
+            throw UserError({path, 0}, fmt::format("'subdivision' of '{}' must be a whole number from 0 to {}, not {}",
+                                                   object, most, value));
+        wanted.push_back({object, value[0] - '0'});
+    }
+    return wanted;
+}
+
+SceneData read(Files& files, const std::string& path, const SceneConstants& constants) {
+    const auto subdivided = subdivisions_of(constants, path);
     return read_by_assets(files, path, [&](Assets& assets) {
         Report& report = assets.report();
         SceneData& scene = assets.scene();
         const auto bytes = assets.read(path, {path, 0});
         report.check();
-        Model model = read_model(**bytes, path, Cut::by_material, report);
+        Model model = read_model(**bytes, path, Cut::by_material, report, subdivided);
         Palette palette(assets);
         for (const Library& line : model.libraries) LibraryLine(line, path, assets).read(palette);
         for (auto& part : model.parts) {
@@ -145,6 +159,6 @@ SceneData read(Files& files, const std::string& path, const SceneConstants&) {
 
 }  // namespace
 
-SceneFormat format() { return {.endings = {".obj"}, .read = read}; }
+SceneFormat format() { return {.endings = {".obj"}, .subdivides = true, .read = read}; }
 
 }  // namespace lightnet::obj

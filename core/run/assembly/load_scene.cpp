@@ -165,6 +165,9 @@ std::map<std::string, std::string> scene_constants(const Graph& graph, const Nod
     if (const auto time = scene.params.find("time"); time != scene.params.end())
         if (std::holds_alternative<double>(time->second.data))
             constants[std::string(time_constant)] = to_string(time->second);
+    if (const auto* objects = param_as<Table>(scene.params, "subdivision"))
+        for (const auto& [object, times] : objects->named)
+            constants[std::string(subdivision_constant) + object] = to_string(times);
     const auto* rate = param_as<double>(scene.params, "fps");
     const double fps = rate ? *rate : usual_fps;
     if (const auto* span = param_as<Table>(scene.params, "shutter"); span && span->list.size() == 2) {
