@@ -31,6 +31,19 @@ ShutterTime drawn_time(Key key, std::uint32_t path) {
     return PhotonTime::middle_of(PhotonTime::instant_of(time_in_shutter(Samples(key, path).next())));
 }
 
+// W. What an emission carries is nearly all power, whichever lamp it is of, so that a few tell.
+double power_of_lamps(const Scene& scene) {
+    constexpr std::uint32_t count = 64;
+    double sum = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Samples numbers(key_of("power"), i);
+        const float choice = numbers.next();
+        const Vec2 place = numbers.next_2d(), direction = numbers.next_2d();
+        if (const auto light = scene.emit(choice, place, direction)) sum += max_component(light->flux) / count;
+    }
+    return sum;
+}
+
 }  // namespace
 
 PhotonPaths photon_paths(const std::string& name) {
@@ -53,6 +66,31 @@ std::string expression_of(PhotonPaths paths) {
             break;
     }
     return "L(S|D|V)*(D|V)";
+}
+
+PhotonShooter::PhotonShooter(const Scene& scene, PhotonPaths paths, Key key) : scene_(scene), paths_(paths), key_(key) {
+    if (paths == PhotonPaths::caustic || !scene.has_media() || !(scene.media().power() > 0)) return;
+    const double power = scene.media().power(), lamps = power_of_lamps(scene);
+    share_of_media_ = lamps > 0 ? float(std::clamp(power / (power + lamps), 0.05, 0.95)) : 1;
+}
+
+/// Light that begins a path.
+struct PhotonShooter::Start {
+    Emission light;
+    bool from_medium;
+};
+
+std::optional<PhotonShooter::Start> PhotonShooter::start(const EmissionNumbers& numbers, ShutterTime time) const {
+    const Vec2 place{numbers[1], numbers[2]}, direction{numbers[3], numbers[4]};
+    const float share = share_of_media_;
+    const bool of_media = numbers[0] < share;
+    const float others = 1 - share, choice = of_media ? numbers[0] / share : (numbers[0] - share) / others;
+    auto light = of_media ? scene_.media().emit(choice, place, direction, time)
+                          : scene_.emit(share > 0 ? choice : numbers[0], place, direction, time);
+    if (!light) return std::nullopt;
+    if (share > 0) light->flux *= 1 / (of_media ? share : others);
+    if (of_media) light->group = scene_.environment_group();
+    return Start{*light, of_media};
 }
 
 struct PhotonShooter::PhotonPath {
@@ -160,11 +198,13 @@ void PhotonShooter::follow(std::uint64_t first, std::size_t count, float share, 
         const auto& [numbers, weight] = choice;
         if (chosen) chosen->push_back(choice);
         const ShutterTime time = moves ? drawn_time(time_key, index) : ShutterTime(0);
-        const auto light = scene_.emit(numbers[0], {numbers[1], numbers[2]}, {numbers[3], numbers[4]}, time);
-        if (!light || !(max_component(light->flux) > 0)) continue;
-        batch.paths.push_back({samples, static_cast<std::uint32_t>(i), light->flux * (weight * share), light->group});
-        batch.rays.push_back({light->origin, light->direction, Ray().far, time});
-        batch.free.push_back(light->free);
+        const auto started = start(numbers, time);
+        if (!started || !(max_component(started->light.flux) > 0)) continue;
+        const Emission& light = started->light;
+        batch.paths.push_back({samples, static_cast<std::uint32_t>(i), light.flux * (weight * share), light.group});
+        batch.paths.back().met_rough = started->from_medium;
+        batch.rays.push_back({light.origin, light.direction, Ray().far, time});
+        batch.free.push_back(light.free);
     }
     for (std::uint32_t surface = 0; !batch.paths.empty() && surface < most_surfaces; ++surface) {
         batch.hits.resize(batch.rays.size());

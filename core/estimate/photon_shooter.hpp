@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,13 @@ PhotonPaths photon_paths(const std::string& name);
 /// In Heckbert's notation.
 std::string expression_of(PhotonPaths paths);
 
+/// What media emit counts as scattered by them, as if it had come from the lamps before: no caustic is of it.
+///
 /// Photon tracing: Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", chapter 5. What a light path meets
 /// depends on the key and on its number alone. Any thread may ask.
 class PhotonShooter {
 public:
-    PhotonShooter(const Scene& scene, PhotonPaths paths, Key key) : scene_(scene), paths_(paths), key_(key) {}
+    PhotonShooter(const Scene& scene, PhotonPaths paths, Key key);
 
     /// Paths `first` … `first + count` of `total`; appends what they leave on surfaces: of all light `share` (1 /
     /// total).
@@ -57,10 +60,13 @@ private:
     void leave(PhotonPath path, const Ray& ray, const Keep& keep, Batch& batch) const;
     void go_on(PhotonPath path, const SurfacePoint& point, const Bsdf& bsdf, Vec3 arriving, Batch& batch) const;
     bool keeps(bool met_mirror, bool met_rough) const;
+    struct Start;
+    std::optional<Start> start(const EmissionNumbers& numbers, ShutterTime time) const;
 
     const Scene& scene_;
     PhotonPaths paths_;
     Key key_;
+    float share_of_media_ = 0;  // of light paths, those that leave media
 };
 
 }  // namespace lightnet

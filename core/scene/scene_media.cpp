@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/math/box.hpp"
+#include "core/base/math/sampling.hpp"
 #include "core/scene/geometry/geometry.hpp"
 #include "core/scene/media/stretches.hpp"
 #include "core/scene/surfaces/shading.hpp"
@@ -54,6 +56,32 @@ void check_media(const SceneData& data) {
             throw unusable(shape.where, "names a medium that isn't there");
 }
 
+// Around what each medium fills.
+std::vector<Box> boxes_of_media(const SceneData& data) {
+    constexpr float far_around = 3;
+    std::vector<Box> boxes(data.media.size());
+    const auto shines = [&](std::uint16_t medium) {
+        return medium != Query::no_medium && !is_black(data.media[medium].emission.value);
+    };
+    if (!std::ranges::any_of(data.media, [](const Medium& one) { return !is_black(one.emission.value); })) return boxes;
+    Box all;
+    const auto add = [&](const Shape& shape, const Matrix& to_world) {
+        if (shines(data.around)) add_to(all, shape.geometry, to_world);
+        if (!parts_media(shape)) return;
+        for (const auto side : {shape.media->inside, shape.media->outside})
+            if (shines(side)) add_to(boxes[side], shape.geometry, to_world);
+    };
+    for (const Shape& shape : data.shapes) add(shape, Matrix{});
+    for (const Instance& instance : data.instances)
+        for (const auto shape : data.objects[instance.object].shapes) add(data.shapes[shape], instance.to_world);
+    if (shines(data.around) && !all.empty()) {
+        const float radius = far_around * length(all.size()) / 2;
+        const Vec3 reach{radius, radius, radius};
+        boxes[data.around] = {all.center() - reach, all.center() + reach};
+    }
+    return boxes;
+}
+
 }  // namespace
 
 struct Media::Borders {
@@ -72,6 +100,7 @@ Media::Media(const SceneData& data, const std::string& isa, std::uint32_t build_
     any_ = parted || data.around != Query::no_medium;
     for (const Medium& medium : data.media)
         bounds_.push_back(medium.extinction.grid ? CollisionBounds(medium.extinction) : CollisionBounds());
+    glow_ = Glow(data.media, boxes_of_media(data));
 }
 
 Media::~Media() = default;
@@ -169,6 +198,21 @@ void Media::cut(const Ray& ray, float longest, Vec2 first, std::vector<MediumPie
                               medium.extinction.value, scatters});
         return true;
     });
+}
+
+std::optional<Emission> Media::emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time) const {
+    const auto spark = glow_.spark(choice, position_sample);
+    if (!spark) return std::nullopt;
+    const Vec3 direction = sphere(direction_sample);
+    std::uint16_t here = Query::no_medium;
+    each_stretch({spark->position, direction, Ray().far, time}, [&](const Stretch& way) {
+        if (way.begin == 0) here = way.medium;
+        return false;
+    });
+    if (here != spark->medium) return std::nullopt;
+    // paths see no light where nothing could collide
+    if (data_.media[here].extinction.grid && !(bounds_[here].most_at(spark->position) > 0)) return std::nullopt;
+    return Emission{spark->position, direction, spark->flux};
 }
 
 SurfacePoint Media::point(Vec3 position, std::uint16_t medium) const {

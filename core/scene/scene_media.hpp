@@ -5,14 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/bsdf/bsdf.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/media/bounds.hpp"
 #include "core/scene/media/flight.hpp"
+#include "core/scene/media/glow.hpp"
 #include "core/scene/media/stretches.hpp"
 #include "core/scene/surfaces/surface.hpp"
 
@@ -52,6 +55,11 @@ public:
     SurfacePoint point(Vec3 position, std::uint16_t medium) const;
     /// How light is scattered by a collision there.
     Bsdf bsdf(const SurfacePoint& point) const;
+    /// Light leaving a point of any of them, of the group 0; as Scene::emit() is of lamps. Of a medium around
+    /// everything what lies within three times the radius of all shapes.
+    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time) const;
+    /// No less than they emit, W. 0: no light comes from them.
+    double power() const { return glow_.power(); }
     /// Bytes of grids.
     std::size_t memory() const;
 
@@ -67,6 +75,7 @@ private:
     bool any_ = false;
     std::unique_ptr<const Borders> borders_;  // null: no shape parts media
     std::vector<CollisionBounds> bounds_;     // by medium; of even ones nothing
+    Glow glow_;
 };
 
 }  // namespace lightnet

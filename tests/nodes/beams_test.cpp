@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "tests/support/small_media.hpp"
 #include "tests/support/small_network.hpp"
@@ -73,6 +75,47 @@ TEST(PhotonBeams, BringToARoomFullOfFogWhatPathsBring) {
         EXPECT_NEAR(sum.r, wanted.r, 0.03 * wanted.r);
         EXPECT_NEAR(sum.g, wanted.g, 0.03 * wanted.g);
         EXPECT_NEAR(sum.b, wanted.b, 0.03 * wanted.b);
+    }
+}
+
+// A room without lamps, in which something glows: all of its light, by paths and by a map.
+SceneData room_with_fire(Medium fire, bool fills_all) {
+    fire.emission.value = {4, 2, 1};
+    SceneData data = foggy_room(fire);
+    data.shapes.back().emission.reset();
+    if (fills_all) return data;
+    data.around = Query::no_medium;
+    add(data, ball({0.6f, 0.4f, 0.6f}, 0.2f), material(data, NoMaterial{})).media = MediumSides{0, Query::no_medium};
+    return data;
+}
+
+TEST(PhotonMaps, GetTheLightThatFireEmits) {
+    Medium flames = lumps(4, 0.5f);
+    auto hot = std::make_shared<VolumeGrid>();
+    hot->size = {2, 2, 2};
+    hot->values = {1, 0, 0, 0, 0, 0.5f, 0, 0};
+    flames.emission.grid = hot;
+    const std::pair<Medium, bool> fires[] = {
+        {fog({1, 2, 4}, {0.5f, 0.2f, 0}), false}, {lumps(4, 0.5f), false}, {flames, true}};
+    for (const auto& [fire, fills_all] : fires) {
+        SmallNetwork network(room_with_fire(fire, fills_all), 20, 20);
+        network.add("seen", "DirectLighting");  // there are no lamps: what the eye sees of the fire itself
+        const auto seen = network.picture(256);
+        network.add("paths", "PathTracing");
+        const auto exact = network.picture(256);
+        network.add("map", "PhotonMap", {},
+                    {{"paths", word("all")}, {"photons", number(50000)}, {"beams", number(30000)}});
+        const auto mapped = network.picture(24);
+        network.add("others", "PhotonMap", {},
+                    {{"paths", word("diffuse")}, {"photons", number(50000)}, {"beams", number(30000)}});
+        const auto others = network.picture(24);
+        Rgb sum, wanted, later;
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            sum += mapped[i] - seen[i], wanted += exact[i] - seen[i], later += others[i] - seen[i];
+        EXPECT_NEAR(sum.r, wanted.r, 0.03 * wanted.r);
+        EXPECT_NEAR(sum.g, wanted.g, 0.03 * wanted.g);
+        EXPECT_NEAR(sum.b, wanted.b, 0.03 * wanted.b);
+        EXPECT_NEAR(later.g, sum.g, 0.02 * sum.g) << "what media emit counts as scattered by them";
     }
 }
 

@@ -36,6 +36,16 @@ CollisionBounds::CollisionBounds(const VolumeField& extinction) : to_grid_(extin
             for (cell[0] = 0; cell[0] < size_[0]; ++cell[0]) most_.push_back(most_in(cell, extinction, of_blocks));
 }
 
+float CollisionBounds::most_at(Vec3 place) const {
+    const Vec3 within = transform_point(to_grid_, place);
+    std::array<std::int64_t, 3> cell;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(within[axis] >= 0 && within[axis] <= 1)) return 0;
+        cell[axis] = std::min(std::int64_t(within[axis] * float(size_[axis])), size_[axis] - 1);
+    }
+    return most_[index(cell)];
+}
+
 // Of all points between which a place in the cell may lie.
 float CollisionBounds::most_in(std::array<std::uint32_t, 3> cell, const VolumeField& extinction,
                                std::span<const float> of_blocks) const {

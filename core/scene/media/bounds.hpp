@@ -25,6 +25,15 @@ public:
     template <class Take>
     bool each_cell(const Ray& ray, float begin, float end, Take&& take) const;
 
+    /// How many there are along each axis.
+    std::array<std::uint32_t, 3> cells() const {
+        return {std::uint32_t(size_[0]), std::uint32_t(size_[1]), std::uint32_t(size_[2])};
+    }
+    /// In a cell, x running fastest.
+    float most(std::size_t cell) const { return most_[cell]; }
+    /// In the cell at a place; 0 outside of the cube.
+    float most_at(Vec3 place) const;
+
 private:
     static constexpr std::uint32_t most_cells = 32;  // along an axis
 
