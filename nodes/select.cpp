@@ -1,8 +1,10 @@
 // Light on some surfaces only.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/network/graph/check_params.hpp"
@@ -10,6 +12,7 @@
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
+#include "core/scene/bsdf/hair_ways.hpp"
 #include "core/scene/data/lamp_names.hpp"
 #include "core/scene/data/scene_data.hpp"
 #include "core/scene/scene.hpp"
@@ -17,9 +20,16 @@
 namespace lightnet {
 namespace {
 
+std::uint8_t without_others(const std::string& way) {
+    if (way == "R") return without_way::any & ~without_way::r;
+    if (way == "TT") return without_way::any & ~without_way::tt;
+    if (way == "TRT") return without_way::any & ~without_way::trt;
+    return 0;
+}
+
 /// Asks its input where a point is on a surface or in a medium, as is wanted, and a surface has the material, belongs
 /// to the object and lies in the box that are named, and answers black elsewhere; or the other way round. What isn't
-/// selected costs the input nothing.
+/// selected costs the input nothing. Of hair it may ask for light that comes by one way through a fibre.
 class Select final : public LightOp {
 public:
     explicit Select(const NodeContext& here)
@@ -29,7 +39,8 @@ public:
           at_surfaces_(here.text("where") != "media"),
           in_media_(here.text("where") != "surfaces"),
           boxed_(!here.numbers("box").empty()),
-          named_(!here.text("material").empty() || !here.text("object").empty()) {
+          named_(!here.text("material").empty() || !here.text("object").empty()),
+          others_(without_others(here.text("hair"))) {
         const auto box = here.numbers("box");
         for (std::size_t i = 0; i < std::min(box.size(), box_.size()); ++i) box_[i] = static_cast<float>(box[i]);
         const auto& materials = scene_.all<Material>();
@@ -37,7 +48,9 @@ public:
         const auto& material = here.text("material");
         const auto& object = here.text("object");
         for (const auto& shape : scene_.all<Shape>()) {
-            made_of_.push_back(material.empty() || goes_by(materials[shape.material].name, material));
+            const Material& made_of = materials[shape.material];
+            made_of_.push_back((material.empty() || goes_by(made_of.name, material)) &&
+                               (others_ == 0 || std::holds_alternative<HairMaterial>(made_of.model)));
             called_.push_back(object.empty() || goes_by(shape.name, object) || goes_by(shape.node_name, object));
         }
         for (const auto& instance : scene_.all<Instance>())
@@ -47,11 +60,13 @@ public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         std::vector<Query> selected;
         std::vector<std::size_t> askers;
-        for (std::size_t i = 0; i < questions.size(); ++i)
-            if (selects(questions[i]) != except_) {
-                selected.push_back(questions[i]);
-                askers.push_back(i);
-            }
+        for (std::size_t i = 0; i < questions.size(); ++i) {
+            const bool here = selects(questions[i]);
+            if (here == except_ && !(here && others_)) continue;
+            Query& question = selected.emplace_back(questions[i]);
+            if (here) question.lobes |= except_ ? without_way::any & ~others_ : others_;
+            askers.push_back(i);
+        }
         if (selected.empty()) return;
         const Part part = ask(inputs_, 0, selected);
         each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& colour) {
@@ -62,7 +77,7 @@ public:
 private:
     bool selects(const Query& question) const {
         if (!(question.is_in_space() ? in_media_ : at_surfaces_)) return false;
-        if (question.is_in_space() ? named_ : !is_called_so(question)) return false;
+        if (question.is_in_space() ? named_ || others_ : !is_called_so(question)) return false;
         if (!boxed_) return true;
         const SurfacePoint point = scene_.surface(question);
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -81,7 +96,8 @@ private:
     std::vector<bool> made_of_, called_;  // by shape: it has the material, the name
     std::vector<bool> of_object_;         // by instance
     bool except_, at_surfaces_, in_media_, boxed_;
-    bool named_;  // a material or an object: media have no such name
+    bool named_;           // a material or an object: media have no such name
+    std::uint8_t others_;  // bits of `without_way`: ways through hair that aren't asked for; 0: there is no such wish
     std::array<float, 6> box_{};
 };
 
@@ -125,11 +141,13 @@ const std::string& text_of(const Node& node, const char* param) {
 }
 
 bool names_places(const Node& node) {
-    return !text_of(node, "material").empty() || !text_of(node, "object").empty() ||
+    return !text_of(node, "material").empty() || !text_of(node, "object").empty() || text_of(node, "hair") != "all" ||
            !std::get<Table>(node.params.at("box").data).list.empty();
 }
 
 bool passes_all(const Node& node) { return !names_places(node) && text_of(node, "where") == "anywhere"; }
+
+bool is_hair(const Material& material) { return std::holds_alternative<HairMaterial>(material.model); }
 
 // By a last letter surfaces are told from media, and nothing else.
 PassedOn passed_by(const Node& node) {
@@ -143,12 +161,15 @@ std::vector<std::string> mistakes(const Node& node, const SceneData* scene) {
     const auto& material = text_of(node, "material");
     const auto& object = text_of(node, "object");
     const auto& box = std::get<Table>(node.params.at("box").data).list;
-    if (passes_all(node)) return {"selects nothing: give it a 'material', an 'object', a 'box' or a 'where'"};
+    if (passes_all(node))
+        return {"selects nothing: give it a 'material', an 'object', a 'box', a 'where' or a way through 'hair'"};
     std::vector<std::string> wrong;
     for (std::size_t axis = 0; axis < 3 && !box.empty(); ++axis)
         if (std::get<double>(box[axis].data) > std::get<double>(box[axis + 3].data))
             wrong.push_back(std::string("'box' ends before it begins along ") + "xyz"[axis]);
     if (!scene) return wrong;
+    if (text_of(node, "hair") != "all" && std::ranges::none_of(scene->materials, is_hair))
+        wrong.push_back("no material of the scene is 'hair'");
     look_for(material, "no shape has a material", materials_of(*scene), wrong);
     look_for(object, "there is no object or shape", objects_of(*scene), wrong);
     return wrong;
@@ -159,7 +180,9 @@ std::vector<std::string> mistakes(const Node& node, const SceneData* scene) {
 Kind select_kind() {
     return {
         .name = "Select",
-        .help = "its input on surfaces of one material, of one object, in a box, or in media; black elsewhere",
+        .help =
+            "its input on surfaces of one material, of one object, in a box, in media, or by a way through hair; black "
+            "elsewhere",
         .inputs = {1, 1},
         .params =
             {{.name = "material",
@@ -181,6 +204,11 @@ Kind select_kind() {
               .help = "on surfaces alone, or where media scatter light",
               .initial = Value{"anywhere"},
               .choices = {"anywhere", "surfaces", "media"}},
+             {.name = "hair",
+              .type = ParamType::text,
+              .help = "of hair alone what fibres reflect (R), let through (TT), or reflect inside (TRT)",
+              .initial = Value{"all"},
+              .choices = {"all", "R", "TT", "TRT"}},
              {.name = "except", .type = ParamType::flag, .help = "all other places instead", .initial = Value{false}}},
         .mistakes = mistakes,
         .light = {.linear = true, .partial = true, .space = true, .passed = passed_by},

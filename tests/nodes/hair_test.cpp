@@ -104,6 +104,34 @@ TEST(HairUnderALamp, IsAsBrightHoweverTheLampIsFound) {
     }
 }
 
+// What is reflected, goes through and is reflected inside are all of hair's light, and the others of each all but it.
+TEST(WaysThroughHair, AreLayersThatAddUp) {
+    constexpr std::uint32_t size = 24, samples = 64;
+    const Scene scene(lit_furball());
+    for (const char* light : {"DirectLighting", "PathTracing"}) {
+        const auto sum_of = [&](const char* way, bool except) {
+            Rig rig(scene);
+            rig.add(light, "light");
+            rig.add("Select", "some", {"light"}, {{"hair", Value{std::string(way)}}, {"except", Value{except}}});
+            double sum = 0;
+            for (const Rgb& pixel : picture(*rig.renderer("some"), size, size, samples)) sum += double{pixel.g};
+            return sum;
+        };
+        const double r = sum_of("R", false), tt = sum_of("TT", false), trt = sum_of("TRT", false);
+        const double all = r + sum_of("R", true);
+        EXPECT_GT(r, 0.01 * all);
+        EXPECT_GT(tt, 0.01 * all);
+        EXPECT_GT(trt, 0.01 * all);
+        EXPECT_NEAR(tt + sum_of("TT", true), all, 0.03 * all) << light;
+        EXPECT_NEAR(trt + sum_of("TRT", true), all, 0.03 * all) << light;
+        Rig whole(scene);
+        whole.add(light, "light");
+        double sum = 0;
+        for (const Rgb& pixel : picture(*whole.renderer("light"), size, size, samples)) sum += double{pixel.g};
+        EXPECT_NEAR(all, sum, 0.03 * sum) << light;
+    }
+}
+
 // Nothing divides by what hair has not.
 TEST(HairUnderALamp, IsFiniteByEveryOperator) {
     const auto check = [](const char* what, SmallNetwork network) {

@@ -1,5 +1,7 @@
 #include "core/scene/bsdf/hair.hpp"
 
+#include "core/scene/bsdf/hair_ways.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,13 +69,14 @@ struct Seen {
     std::array<Rgb, HairBsdf::ways> share{};
     std::array<float, HairBsdf::ways> chance{};  // their sum is 1; or they are 0
 
-    Seen(const HairBsdf& hair, Vec3 outgoing);
-    void share_out(float reflected, Rgb left);
+    Seen(const HairBsdf& hair, Vec3 outgoing, std::uint8_t lobes);
+    void share_out(float reflected, Rgb left, std::uint8_t lobes);
     Tilt tilted(const HairBsdf& hair, std::size_t way) const;
     BsdfValue from(const HairBsdf& hair, Vec3 incoming) const;
 };
 
-Seen::Seen(const HairBsdf& hair, Vec3 o) : tilt{o.x, std::sqrt(o.y * o.y + o.z * o.z)}, turn(turns(o.z, o.y)) {
+Seen::Seen(const HairBsdf& hair, Vec3 o, std::uint8_t lobes)
+    : tilt{o.x, std::sqrt(o.y * o.y + o.z * o.z)}, turn(turns(o.z, o.y)) {
     const float straight = std::max(tilt.cosine, 1e-4f);
     const float across = std::clamp(hair.across ? *hair.across : -o.y / straight, -1.0f, 1.0f);
     const float height = cosine_beside(across);
@@ -85,11 +88,11 @@ Seen::Seen(const HairBsdf& hair, Vec3 o) : tilt{o.x, std::sqrt(o.y * o.y + o.z *
         turned[way] = 2 * float(way) * through - 2 * in + 0.5f * float(way);
     const float steep = std::max(cosine_beside(o.x / hair.eta), 1e-4f);
     share_out(fresnel_dielectric(std::max(straight * height, 1e-4f), hair.eta),
-              hair_exponential(hair.absorption * (-2 * depth / steep)));
+              hair_exponential(hair.absorption * (-2 * depth / steep)), lobes);
 }
 
 // All that goes on inside after TRT is the last one's: a geometric series.
-void Seen::share_out(float reflected, Rgb left) {
+void Seen::share_out(float reflected, Rgb left, std::uint8_t lobes) {
     const auto all_further = [&](float left_of_one) {
         const float again = left_of_one * reflected;
         return again < 1 ? again / (1 - again) : 0;
@@ -98,6 +101,9 @@ void Seen::share_out(float reflected, Rgb left) {
     share[1] = left * ((1 - reflected) * (1 - reflected));
     share[2] = share[1] * left * reflected;
     share[3] = share[2] * Rgb{all_further(left.r), all_further(left.g), all_further(left.b)};
+    if (lobes & without_way::r) share[0] = {};
+    if (lobes & without_way::tt) share[1] = {};
+    if (lobes & without_way::trt) share[2] = share[3] = {};
     float sum = 0;
     for (std::size_t way = 0; way < HairBsdf::ways; ++way) sum += chance[way] = luminance(share[way]);
     for (float& each : chance) each = sum > 0 ? each / sum : 0;
@@ -155,12 +161,12 @@ Tilt sample_along(Tilt o, float variance, float u, float turn) {
 
 BsdfValue HairBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {
     if (!(lobes & lobe::glossy)) return {};
-    return Seen(*this, outgoing).from(*this, incoming);
+    return Seen(*this, outgoing, lobes).from(*this, incoming);
 }
 
 std::optional<BsdfSample> HairBsdf::sample(Vec3 outgoing, float choice, Vec2 u, std::uint8_t lobes) const {
     if (!(lobes & lobe::glossy)) return {};
-    const Seen seen(*this, outgoing);
+    const Seen seen(*this, outgoing, lobes);
     const auto [way, rest] = choose(seen.chance, choice);
     const Tilt tilt = sample_along(seen.tilted(*this, way), along_of(*this, way).variance, u.y, rest);
     const float turned = way < along.size() ? seen.turned[way] + sample_around(u.x, *this) : u.x;
