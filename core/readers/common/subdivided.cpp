@@ -242,6 +242,7 @@ private:
 
 }  // namespace
 
+// DECISIONS: cages-by-opensubdiv
 Subdivided subdivided(const Cage& cage, int levels) {
     std::size_t triangles = 2 * cage.corners.size();
     for (int level = 1; level < levels && triangles <= most_triangles_by_subdivision; ++level) triangles *= 4;

@@ -179,7 +179,7 @@ private:
         if (word == "v") return vertex();
         if (word == "vn") return normal();
         if (word == "vt") return uv();
-        if (word == "f" || word == "fo") return face();
+        if (word == "f" || word == "fo") return face(faces_++, counts(), false);
         if (word == "usemtl") return use_material();
         if (word == "mtllib") return libraries_.push_back({std::string(trimmed(lines_.rest(), "\"")), lines_.where()});
         if (word == "s") return smooth();
@@ -246,9 +246,7 @@ private:
 
     Counts counts() const { return {lists_.positions.size(), lists_.uvs.size(), lists_.normals.size()}; }
 
-    void face() { face(faces_++, counts(), false); }
-
-    /// `so_far`: where it stands; `last`: nothing comes later.
+    /// `number`: from 0 on; `so_far`: where it stands; `last`: nothing comes later.
     void face(std::size_t number, const Counts& so_far, bool last) {
         const auto words = lines_.left();
         corners_.clear();
