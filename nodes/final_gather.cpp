@@ -62,7 +62,7 @@ Kind final_gather_kind() {
                     .least = 1,
                     .most = 65536}},
         .light = {.space = true, .groups = true, .onward = "S*(D|V)"},
-        .reads = reading(ScenePart::geometry | ScenePart::materials | ScenePart::media),
+        .reads = reading(ScenePart::geometry | ScenePart::materials | ScenePart::media | ScenePart::lamps),
         .make_light = [](const NodeContext& here) { return std::make_unique<FinalGather>(here); },
     };
 }

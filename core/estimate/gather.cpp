@@ -33,13 +33,15 @@ void add(Query question, const GatherRay& ray, const SpecularPath& path, std::ui
     met.weights.push_back(path.weight());
 }
 
-// Does a medium scatter what the path would meet? Then that is asked about. What media emit is left to others.
+// Does a medium scatter what the path would meet? Then that is asked about. What media emit on the way counts as
+// scattered by them, as in paths and photon maps.
 bool collides(const Scene& scene, const GatherRay& ray, const std::optional<Hit>& hit, std::uint32_t mirrors,
-              std::size_t index, SpecularPath& path, RayQuestions& met) {
+              std::size_t index, SpecularPath& path, RayQuestions& met, Rgb& shine) {
     Ray way = path.ray();
     if (hit) way.far = hit->distance;
     Samples samples(child(ray.stream, flight_key, mirrors), ray.sample);
     const Flight flight = scene.media().fly(way, path.weight(), samples.next_2d());
+    shine += path.weight() * flight.emitted;
     path.dim(flight.weight);
     if (!flight.collision) return false;
     path.arrive(flight.collision->distance);
@@ -47,10 +49,11 @@ bool collides(const Scene& scene, const GatherRay& ray, const std::optional<Hit>
     return true;
 }
 
-void follow(const Scene& scene, const GatherRay& ray, std::optional<Hit> hit, std::size_t index, RayQuestions& met) {
+void follow(const Scene& scene, const GatherRay& ray, std::optional<Hit> hit, std::size_t index, RayQuestions& met,
+            Rgb& shine) {
     SpecularPath path(ray.ray);
     for (std::uint32_t mirrors = 0;; ++mirrors) {
-        if (scene.has_media() && collides(scene, ray, hit, mirrors, index, path, met)) return;
+        if (scene.has_media() && collides(scene, ray, hit, mirrors, index, path, met, shine)) return;
         if (!hit) return;
         path.arrive(hit->distance);
         const SurfacePoint point = scene.surface(*hit);
@@ -70,6 +73,7 @@ void follow(const Scene& scene, const GatherRay& ray, std::optional<Hit> hit, st
 void gather(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const GatherRay> rays,
             std::span<GatherResult> results) {
     const std::size_t width = inputs[index].width();
+    const std::size_t of_media = width > 1 ? scene.environment_group() : 0;
     std::vector<Ray> first;
     first.reserve(rays.size());
     for (const GatherRay& ray : rays) first.push_back(ray.ray);
@@ -82,7 +86,7 @@ void gather(const Scene& scene, const Inputs& inputs, std::size_t index, std::sp
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const float distance = hits[i] ? hits[i]->distance : std::numeric_limits<float>::infinity();
         std::fill_n(results.begin() + std::ptrdiff_t(i * width), width, GatherResult{{}, distance});
-        follow(scene, rays[i], hits[i], i, met);
+        follow(scene, rays[i], hits[i], i, met, results[i * width + of_media].light);
     }
     if (met.questions.empty()) return;
     each_colour(ask(inputs, index, met.questions), [&](std::size_t q, std::size_t layer, const Rgb& colour) {

@@ -23,7 +23,7 @@ struct GatherRay {
 
 /// What a ray found.
 struct GatherResult {
-    Rgb light;       // radiance arriving that some surface has scattered (what shines by itself is direct light)
+    Rgb light;       // radiance arriving that surfaces or media have scattered, or media emit (lamps are direct light)
     float distance;  // m, to the first surface; infinite where there is none
 };
 

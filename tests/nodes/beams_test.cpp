@@ -119,6 +119,16 @@ TEST(PhotonMaps, GetTheLightThatFireEmits) {
     }
 }
 
+TEST(FinalGather, SeesWhatFireEmitsAsPathsDo) {
+    SmallNetwork network(room_with_fire(fog({1, 2, 4}, {0.5f, 0.2f, 0}), false), 20, 20);
+    network.add("paths", "PathTracing", {}, {{"paths", word("all")}});
+    const double exact = mean_of(network.picture(256));
+    network.add("gathered", "FinalGather", {"paths"});
+    EXPECT_NEAR(mean_of(network.picture(256)), exact, 0.02 * exact);
+    network.add("seen", "DirectLighting");
+    EXPECT_LT(mean_of(network.picture(256)), 0.9 * exact) << "or this says nothing";
+}
+
 // Under a glass ball in fog. Paths find the lamp through the glass, as it is large; direct light does not.
 TEST(PhotonBeams, OfGlassAreTheLightThatPathsFindThroughIt) {
     SceneData data;
