@@ -26,6 +26,7 @@ PhotonPaths photon_paths(const std::string& name);
 /// In Heckbert's notation.
 std::string expression_of(PhotonPaths paths);
 
+/// DECISIONS: fire-is-scattered-light
 /// What media emit counts as scattered by them, as if it had come from the lamps before: no caustic is of it.
 ///
 /// Photon tracing: Jensen 2001, "Realistic Image Synthesis Using Photon Mapping", chapter 5. What a light path meets

@@ -726,7 +726,7 @@ class Scene(Node):
     ) -> None: ...
 
 class Select(Node):
-    """its input on surfaces of one material, of one object, in a box, or in media; black elsewhere.
+    """its input on surfaces of one material, of one object, in a box, in media, or by a way through hair; black elsewhere.
 
     Inputs: 1 that give light.
 
@@ -738,6 +738,8 @@ class Select(Node):
         lower x, y, z and upper x, y, z; empty: anywhere
     where: text, "anywhere" | "surfaces" | "media", default "anywhere"
         on surfaces alone, or where media scatter light
+    hair: text, "all" | "R" | "TT" | "TRT", default "all"
+        of hair alone what fibres reflect (R), let through (TT), or reflect inside (TRT)
     except: flag, default false
         all other places instead
     """
@@ -749,6 +751,7 @@ class Select(Node):
         object: str | None = ...,
         box: Sequence[float] | None = ...,
         where: Literal["anywhere", "surfaces", "media"] | None = ...,
+        hair: Literal["all", "R", "TT", "TRT"] | None = ...,
         except_: bool | None = ...,
         name: str | None = ...,
     ) -> None: ...

@@ -122,7 +122,7 @@ TEST(WaysThroughHair, AreLayersThatAddUp) {
         EXPECT_GT(r, 0.01 * all);
         EXPECT_GT(tt, 0.01 * all);
         EXPECT_GT(trt, 0.01 * all);
-        EXPECT_LT(r + tt + trt, all) << "the floor has none of them";
+        EXPECT_NEAR(r + tt + trt, all, 0.03 * all) << "hardly anything else is seen";
         EXPECT_NEAR(tt + sum_of("TT", true), all, 0.03 * all) << light;
         EXPECT_NEAR(trt + sum_of("TRT", true), all, 0.03 * all) << light;
         Rig whole(scene);
