@@ -157,6 +157,8 @@ private:
         });
     }
     void use(Host& host) {
+        if (world_.slow_news > 0)
+            host.down_free = std::max(host.down_free, seconds() + world_.slow_news * chance_.part());
         send_down(host, [plan = in_force_](Host& told) {
             if (told.process->leaving) told.process->knows_that_it_leaves = true;
             if (told.serving) told.process->tell(plan, run);

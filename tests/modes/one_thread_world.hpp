@@ -59,11 +59,25 @@ struct OneThreadWorld {
     double unnoticed = 0;  // part of those between launcher and hosts, whose loss both ends find out later
     double twice = 0;      // part of what is asked between hosts
     double refused = 0;    // part of what is asked between hosts: the line is full just now
+    double slow_news = 0;  // seconds at most, that the launcher's line to a host is busy before each plan
     double let_go_after = 5;
     bool by_hash = false;  // results go by their hash, however small they are
     Tuning tuning{};
     std::vector<Mishap> mishaps{};
 };
+
+/// In some worlds all goes wrong while nodes prepare, who was killed is back before others have noticed, nodes are
+/// let go of before all can have heard of it, and some hosts hear of plans later than others.
+inline void hasten(OneThreadWorld& world) {
+    Chance chance(child(world.seed, 18));
+    const bool soon = chance.happens(0.3), at_once = chance.happens(0.4);
+    if (chance.happens(0.3)) world.let_go_after = 0.3 * chance.part();
+    if (chance.happens(0.4)) world.slow_news = 0.3 * chance.part();
+    for (auto& mishap : world.mishaps) {
+        if (soon) mishap.event = chance.below(1u << (4 + chance.below(5)));
+        if (at_once && mishap.kind == Mishap::Kind::kill) mishap.seconds *= 0.02;
+    }
+}
 
 /// The world of a seed. Processes die twice at most, as what was asked of three that died is set aside.
 inline OneThreadWorld world_of(std::uint64_t seed) {
@@ -98,6 +112,7 @@ inline OneThreadWorld world_of(std::uint64_t seed) {
         mishap.seconds = (chance.happens(0.3) ? 3 : 0.3) * chance.part();
         world.mishaps.push_back(mishap);
     }
+    hasten(world);
     return world;
 }
 
