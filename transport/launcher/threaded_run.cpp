@@ -1,5 +1,7 @@
 #include "transport/launcher/threaded_run.hpp"
 
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "transport/places/place_threads.hpp"
@@ -15,6 +17,7 @@ struct ThreadedRun::Parts {
 ThreadedRun::ThreadedRun(std::shared_ptr<const Network> network, std::uint64_t run, Plan plan, Tuning rules,
                          const MakePlaceTransport& make_transport) {
     const auto count = static_cast<std::uint32_t>(plan.places.size());
+    plan.edition = std::numeric_limits<std::uint32_t>::max();  // they are told no other, so no ask may wait for one
     auto transport = make_transport(run, count);
     auto& its_transport = *transport;
     parts_.reset(
