@@ -1,15 +1,18 @@
 #include "core/readers/images/known_images.hpp"
 
-#include <algorithm>
+#include <cstddef>
 #include <mutex>
 #include <utility>
 #include <vector>
+
+#include "core/base/hash.hpp"
 
 namespace lightnet {
 namespace {
 
 struct Remembered {
-    Bytes file;
+    std::size_t size;
+    Hash file;
     Encoding encoding;
     std::weak_ptr<const Image> image;
     std::string remark;
@@ -26,25 +29,28 @@ std::vector<Remembered>& remembered_images() {
 
 }  // namespace
 
-// Compared byte by byte, which is far quicker than a hash that could be trusted.
+// A hash is made only of a file that is as long as one that is known.
 std::optional<KnownImage> known_image(const Bytes& file, const Encoding& encoding) {
-    std::vector<std::pair<Bytes, KnownImage>> alike;
+    std::vector<Remembered> alike;
     {
         const std::lock_guard lock(images_mutex());
         for (const auto& one : remembered_images())
-            if (one.encoding == encoding && one.file->size() == file->size())
-                if (auto image = one.image.lock()) alike.push_back({one.file, {std::move(image), one.remark}});
+            if (one.encoding == encoding && one.size == file->size() && !one.image.expired()) alike.push_back(one);
     }
-    for (auto& [bytes, known] : alike)
-        if (bytes == file || *bytes == *file) return std::move(known);
+    if (alike.empty()) return std::nullopt;
+    const Hash name = content_hash(*file);
+    for (const auto& one : alike)
+        if (one.file == name)
+            if (auto image = one.image.lock()) return KnownImage{std::move(image), one.remark};
     return std::nullopt;
 }
 
 void remember_image(const Bytes& file, const Encoding& encoding, const KnownImage& made) {
+    const Hash name = content_hash(*file);
     const std::lock_guard lock(images_mutex());
     auto& images = remembered_images();
     std::erase_if(images, [](const Remembered& one) { return one.image.expired(); });
-    images.push_back({file, encoding, made.image, made.remark});
+    images.push_back({file->size(), name, encoding, made.image, made.remark});
 }
 
 }  // namespace lightnet

@@ -19,7 +19,7 @@ struct KnownImage {
 /// The image of a file with these bytes, where a scene of this process has it: who edits a scene and reads it anew
 /// need not decode it once more. None: nobody has. Any thread.
 std::optional<KnownImage> known_image(const Bytes& file, const Encoding& encoding);
-/// It is known as long as somebody has it; until then its file's bytes stay, too. Any thread.
+/// It is known as long as somebody has it. Of its file no more than a hash is kept. Any thread.
 void remember_image(const Bytes& file, const Encoding& encoding, const KnownImage& made);
 
 }  // namespace lightnet
