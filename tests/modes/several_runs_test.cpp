@@ -275,6 +275,37 @@ TEST_F(SeveralRuns, HaveTheirPartsOfAProcessorThatBothWant) {
     for (auto* run : {&*polite, &*usual}) run->signal(SIGINT), run->wait();
 }
 
+TEST_F(SeveralRuns, GiveTwoSessionsAndARunEqualPartsOfAProcessor) {
+    std::optional<OnOneProcessor> bound(std::in_place);
+    const Daemon daemon(folder, 1, any_port, {"--runs", "3"});
+    bound.reset();
+    const auto processes = children_of(daemon.process->id());
+    ASSERT_EQ(processes.size(), 3u);
+    std::vector<std::unique_ptr<Process>> all;
+    for (const std::string name : {"one", "two"}) {
+        all.push_back(std::make_unique<Process>(Words{
+            program("lightnet"), "session", graph_file("cornell.lua"), "-o", folder / (name + ".exr"), "--json",
+            "--size", "128x128", "--samples", endless, "--hosts", hosts_file(name + ".lua", whole(daemon.endpoint))}));
+        ASSERT_TRUE(all.back()->wait_for("\"coarse\":false")) << all.back()->output();
+    }
+    all.push_back(start("three", whole(daemon.endpoint), endless));
+    ASSERT_TRUE(renders(*all.back())) << all.back()->output();
+    std::vector<milliseconds> before, took(3);
+    for (const int process : processes) before.push_back(use_of(process).value().computed);
+    milliseconds together{};
+    const auto end = std::chrono::steady_clock::now() + slowdown * seconds(90);
+    while (together < seconds(6) && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(milliseconds(20));
+        together = {};
+        for (std::size_t i = 0; i < took.size(); ++i)
+            together += took[i] = use_of(processes[i]).value().computed - before[i];
+    }
+    for (const auto& one : took)
+        EXPECT_NEAR(double(one.count()), double(together.count()) / 3, double(together.count()) / 30)
+            << took[0].count() << ", " << took[1].count() << " and " << took[2].count() << " ms";
+    for (const auto& run : all) run->signal(SIGINT), run->wait();
+}
+
 TEST_F(SeveralRuns, AreToldOfByLightnetHosts) {
     const Daemon daemon(folder, 1, any_port, {"--runs", "2"});
     const auto run = start("one", whole(daemon.endpoint), "300");
