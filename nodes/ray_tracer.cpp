@@ -373,6 +373,7 @@ Kind ray_tracer_kind() {
             },
         .light = {.lamps = true, .groups = true, .paths = always({"LS*E"}), .onward = "S*E"},
         .reads = reading(scene_of_light | ScenePart::camera),
+        .asks_by = reading(ScenePart::camera | ScenePart::geometry | ScenePart::materials | ScenePart::media),
         .make_renderer = [](const NodeContext& here) { return std::make_unique<RayTracer>(here); },
     };
 }

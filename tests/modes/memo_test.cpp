@@ -41,16 +41,26 @@ lighting = Combine { direct, bounce }
                                // photons, which take most of the rays
                                R"(direct = PhotonMap { photons = 20000, paths = "all" }
 lighting = direct
+)",
+                               // lamps apart, of which one prepares
+                               R"(direct = DirectLighting { samples = 1, lamps = "key" }
+bounce = PathTracing { samples = 1, lamps = "key" }
+soft = DirectLighting { samples = 1, lamps = "fill" }
+glow = PathTracing { samples = 1, lamps = "fill" }
+others = PhotonMap { photons = 2000, paths = "all", lamps = "rest" }
+inner = Combine { glow, soft, weights = { 1, 0.5 } }
+lighting = Combine { direct, bounce, inner, others }
 )"};
+constexpr int apart = 4;
 
 /// All that somebody may edit, a number each, of which few are likely, so that earlier ones come back.
 struct Edit {
     int lighting = 0;
-    int eye = 0, lamp = 0, sky = 0, paint = 0, name = 0;                                 // of the scene
+    int eye = 0, lamp = 0, fill = 0, sky = 0, paint = 0, name = 0;                       // of the scene
     int gain = 0, exposure = 0, half = 0, samples = 0, seed = 0, noise = 0, unused = 0;  // of the graph
 
     std::vector<int*> numbers() {
-        return {&eye, &lamp, &sky, &paint, &name, &gain, &exposure, &half, &samples, &seed, &noise, &unused};
+        return {&eye, &lamp, &fill, &sky, &paint, &name, &gain, &exposure, &half, &samples, &seed, &noise, &unused};
     }
     std::string scene() const {
         return fmt::format(R"(LookAt {} 1 -4  0 .5 0  0 1 0
@@ -62,22 +72,27 @@ AttributeBegin
 Attribute "light" "string name" "key"
 LightSource "point" "rgb I" [ 9 8 7 ] "point3 from" [ {} 3 -2 ]
 AttributeEnd
+AttributeBegin
+Attribute "light" "string name" "fill"
+LightSource "point" "rgb I" [ 1 2 {} ] "point3 from" [ -3 3 -2 ]
+AttributeEnd
 MakeNamedMaterial "paint{}" "string type" "diffuse" "rgb reflectance" [ .{} .5 .4 ]
 NamedMaterial "paint{}"
 Shape "sphere" "float radius" 1
 Material "conductor" "spectrum eta" "metal-Cu-eta" "spectrum k" "metal-Cu-k" "float roughness" 0
 Shape "trianglemesh" "point3 P" [ -5 -1 -5  5 -1 -5  5 -1 5  -5 -1 5 ] "integer indices" [ 0 1 2 0 2 3 ]
 )",
-                           eye, 0.3 + sky, lamp, name, 5 + paint, name);
+                           eye, 0.3 + sky, lamp, 3 + fill, name, 5 + paint, name);
     }
     std::string graph() const {
         const std::string error = noise ? "error = 0.1, " : "";
-        return fmt::format(R"(scene = Scene {{ "room.pbrt", exposure = {} }}
+        return fmt::format(R"(scene = Scene {{ "room.pbrt", exposure = {}{} }}
 {}other = AmbientOcclusion {{ samples = {} }}
 image = RayTracer {{ lighting, {}scene = scene, samples = {},
     film = {{ 12, 12, half = {}, gains = {{ direct = {} }}, file = "picture.exr" }} }}
 )",
-                           exposure, lightings[static_cast<std::size_t>(lighting)], 1 + unused, error,
+                           exposure, lighting == apart ? R"(, groups = { key = "key", fill = "fill" })" : "",
+                           lightings[static_cast<std::size_t>(lighting)], 1 + unused, error,
                            noise ? 48 + 16 * samples : 16 + 8 * samples, half ? "true" : "false", 1 - 0.5 * gain);
     }
 };
@@ -149,6 +164,26 @@ TEST_F(Memo, RendersAnewWhateverIsSeenOfTheScene) {
         EXPECT_GT(rays_after({}, after), all / 2) << after.graph() << after.scene();
         EXPECT_THAT(said, HasSubstr("memo: nothing of this picture is there"));
     }
+}
+
+TEST_F(Memo, RendersNoLayerAnewWhoseLampsStay) {
+    const double all = counter(fresh({.lighting = apart}).report, "rays");
+    EXPECT_LT(rays_after({.lighting = apart}, {.lighting = apart, .fill = 1}), all / 2);
+    EXPECT_THAT(said, HasSubstr("memo: layers that are there: direct, bounce, others; the others are rendered"));
+    EXPECT_LT(rays_after({.lighting = apart}, {.lighting = apart, .lamp = 1}), all / 2);
+    EXPECT_THAT(said, HasSubstr("memo: layers that are there: soft, glow, others; the others are rendered"));
+    EXPECT_GT(rays_after({.lighting = apart}, {.lighting = apart, .eye = 1}), all / 10)
+        << "the map of photons is there";
+    EXPECT_THAT(said, HasSubstr("memo: nothing of this picture is there"));
+}
+
+TEST_F(Memo, TakesUpAPictureOfLayersThatWereThere) {
+    render({.lighting = apart});
+    render({.lighting = apart, .fill = 1});
+    EXPECT_EQ(rays_after({.lighting = apart, .fill = 1}, {.lighting = apart, .fill = 1, .gain = 1}), 0);
+    const double all = counter(fresh({.lighting = apart, .fill = 1, .samples = 2}).report, "rays");
+    EXPECT_LT(rays_after({.lighting = apart, .fill = 1}, {.lighting = apart, .fill = 1, .samples = 2}), 0.6 * all);
+    EXPECT_THAT(said, HasSubstr("memo: 16 samples per pixel of 32 are there"));
 }
 
 // Rays of a run whose results of preparing are kept, and no film.
@@ -232,7 +267,7 @@ TEST_P(RandomEdits, GiveTheBytesOfFreshRuns) {
     EXPECT_GT(free_of_rays, 0) << "the memo was of no use";
 }
 
-INSTANTIATE_TEST_SUITE_P(Lightings, RandomEdits, testing::Range(0, 3));
+INSTANTIATE_TEST_SUITE_P(Lightings, RandomEdits, testing::Values(0, 1, 2, apart));
 
 }  // namespace
 }  // namespace lightnet::memo_test

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/build_info.hpp"
 #include "core/base/hash.hpp"
+#include "core/film/clean_layers.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plan.hpp"
 #include "core/run/assembly/fingerprint.hpp"
@@ -53,11 +55,38 @@ std::map<std::string, std::string> film_recipe(const Job& job, const Registry& r
     recipe["colours"] = to_hex(content_hash(colours));
     recipe["run"] = to_hex(content_hash(made_from.run));
     if (!made_from.scene) return recipe;
-    SceneParts read = all_read(made_from, used_nodes(job.graph, renderer_of(job.graph, registry)));
-    if (format.adaptive()) read |= ScenePart::film;  // noise counts as it is seen
+    const auto used = used_nodes(job.graph, renderer_of(job.graph, registry));
+    const SceneParts seen = format.adaptive() ? ScenePart::film : SceneParts();  // noise counts as it is seen
     recipe["graph"] = to_hex(content_hash(made_from.light));
-    recipe["scene"] = to_hex(made_from.scene->of(read));
+    recipe["scene"] = to_hex(hash_of_read(made_from, used, seen));
     return recipe;
+}
+
+std::vector<LightRecipe> light_recipes(const Job& job, const Registry& registry, const FilmFormat& format,
+                                       std::uint32_t tile, const MadeFrom& made_from) {
+    std::vector<LightRecipe> recipes;
+    if (!made_from.scene || format.adaptive()) return recipes;
+    auto lights = single_lights(job.graph, registry);
+    if (lights.size() < 2) return recipes;
+    const Node& renderer = job.graph.nodes[renderer_of(job.graph, registry)];
+    const SceneParts asked = registry.find(renderer.kind)->asks_by(renderer);
+    const auto whole = film_recipe(job, registry, format, tile, made_from);
+    for (auto& light : lights) {
+        LightRecipe one{std::move(light), {}, whole};
+        std::string names;
+        for (const auto layer : one.light.layers) names += format.layers[layer] + '\n';
+        for (std::size_t colour = 0; colour < format.colours(); ++colour)
+            for (const auto layer : one.light.layers)
+                if (colour == layer || format.name_of(colour) == cleaning::half_of(format.layers[layer])) {
+                    one.colours.push_back(colour);
+                    names += std::to_string(one.colours.size()) + (colour == layer ? " whole\n" : " half\n");
+                }
+        one.recipe["colours"] = to_hex(content_hash(names));
+        one.recipe["graph"] = to_hex(content_hash(one.light.text));
+        one.recipe["scene"] = to_hex(hash_of_read(made_from, one.light.used, asked));
+        recipes.push_back(std::move(one));
+    }
+    return recipes;
 }
 
 }  // namespace lightnet

@@ -57,6 +57,10 @@ bool CheckpointKeeper::recall(const std::function<void(FilmState)>& restore) {
     return true;
 }
 
+void CheckpointKeeper::recall_lights(const Graph& graph, const Registry& registry) {
+    if (film_.samples_begun() == 0) lights_ = memo_->find_lights(film_.format(), graph, registry);
+}
+
 void CheckpointKeeper::remember() const {
     if (memo_ && !known_) memo_->keep(film_);
 }
@@ -66,7 +70,7 @@ std::string CheckpointKeeper::save_if_due(std::uint64_t blocks) {
     std::string complaint;
     if (!pace_.due(now)) return complaint;
     pace_.put_off(now);
-    if (saved_ == blocks) return complaint;
+    if (saved_ == blocks || lights_.are_shown()) return complaint;
     if (saving_.valid()) {
         if (saving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return complaint;
         try {

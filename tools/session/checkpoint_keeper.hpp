@@ -15,6 +15,7 @@
 #include "core/film/checkpoint.hpp"
 #include "core/film/film.hpp"
 #include "tools/session/film_memo.hpp"
+#include "tools/session/known_lights.hpp"
 #include "tools/support/pace.hpp"
 
 namespace lightnet {
@@ -35,6 +36,10 @@ public:
     bool remembers() const { return memo_ != nullptr; }
     /// Hands on the film of an earlier run, wherever that picture went; false: there is none that fits.
     bool recall(const std::function<void(FilmState)>& restore);
+    /// Looks for lights of the graph, where nothing else is there.
+    void recall_lights(const Graph& graph, const Registry& registry);
+    /// Those that were found. Nothing is saved while the film shows something of them.
+    KnownLights& lights() { return lights_; }
     /// Keeps the film, which is finished, unless all of it was recalled.
     void remember() const;
     /// So many blocks are in the file already.
@@ -56,6 +61,7 @@ private:
     std::filesystem::path file_;
     std::unique_ptr<FilmMemo> memo_;  // null: nothing is remembered
     bool known_ = false;              // it has all of the film
+    KnownLights lights_;              // that were recalled
     Checkpoint last_;                 // being saved, or what was; its room is used again
     Pace pace_;
     std::future<double> saving_;   // seconds that it took

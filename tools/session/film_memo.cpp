@@ -11,51 +11,76 @@
 
 namespace lightnet {
 
-FilmMemo::FilmMemo(std::map<std::string, std::string> recipe, std::unique_ptr<ResultCache> cache)
-    : recipe_(std::move(recipe)), cache_(std::move(cache)) {}
+namespace {
 
-Hash FilmMemo::name() const {
+Hash name_of(const FilmMemo::Recipe& recipe) {
     std::string text = "film\n";
-    for (const auto& [what, value] : recipe_) text += what + ' ' + value + '\n';
+    for (const auto& [what, value] : recipe) text += what + ' ' + value + '\n';
     return content_hash(text);
 }
 
-Hash FilmMemo::name(std::uint32_t samples) const {
-    return content_hash(to_hex(name()) + " samples " + std::to_string(samples));
+Hash name_of(const FilmMemo::Recipe& recipe, std::uint32_t samples) {
+    return content_hash(to_hex(name_of(recipe)) + " samples " + std::to_string(samples));
 }
 
+}  // namespace
+
+FilmMemo::FilmMemo(Recipe recipe, std::vector<LightRecipe> lights, std::unique_ptr<ResultCache> cache)
+    : recipe_(std::move(recipe)), lights_(std::move(lights)), cache_(std::move(cache)) {}
+
 std::optional<FilmState> FilmMemo::find(std::uint32_t samples) const {
-    if (auto same = find(name(samples), samples)) return same;
-    return find(name(), samples);
+    if (auto same = find(name_of(recipe_, samples), recipe_, samples)) return same;
+    return find(name_of(recipe_), recipe_, samples);
 }
 
 // What is damaged, or not what its name says, is none: the picture is rendered.
-std::optional<FilmState> FilmMemo::find(const Hash& name, std::uint32_t most) const try {
+std::optional<FilmState> FilmMemo::find(const Hash& name, const Recipe& recipe, std::uint32_t most) const try {
     const Bytes bytes = cache_->find(name).bytes;
     if (!bytes) return std::nullopt;
     Checkpoint found = checkpoint_in(*bytes);
-    if (found.of != recipe_ || found.film.samples > most) return std::nullopt;
+    if (found.of != recipe || found.film.samples > most) return std::nullopt;
     return std::move(found.film);
 } catch (const Error&) {
     return std::nullopt;
 }
 
-void FilmMemo::keep(const Film& film) {
-    const Bytes bytes = checkpoint_bytes({recipe_, film.state()});
-    const Result result{content_hash(*bytes), bytes};
-    cache_->keep(name(film.format().samples), result);
-    cache_->keep(name(), result);
+KnownLights FilmMemo::find_lights(const FilmFormat& format, const Graph& graph, const Registry& registry) const {
+    KnownLights known(format, graph);
+    for (const auto& light : lights_)
+        if (auto state = find(name_of(light.recipe, format.samples), light.recipe, format.samples))
+            known.add(light, *std::move(state));
+    if (!known.empty()) known.settle(registry);
+    return known;
 }
 
-std::unique_ptr<FilmMemo> memo_for(const RunRequest& request, const Registry& registry,
-                                   const std::map<std::string, std::string>& recipe,
+void FilmMemo::keep(const Film& film) {
+    const FilmState state = film.state();
+    const auto keep = [&](const Hash& name, const Result& result) { cache_->keep(name, result); };
+    const auto result_of = [](const Recipe& recipe, FilmState held) {
+        const Bytes bytes = checkpoint_bytes({recipe, std::move(held)});
+        return Result{content_hash(*bytes), bytes};
+    };
+    const auto samples = film.format().samples;
+    for (const auto& light : lights_)
+        if (const Hash name = name_of(light.recipe, samples); !cache_->find(name).bytes)
+            keep(name, result_of(light.recipe, colours_of(state, light.colours, film.format().colours())));
+    const Result whole = result_of(recipe_, state);
+    keep(name_of(recipe_, samples), whole);
+    keep(name_of(recipe_), whole);
+}
+
+std::unique_ptr<FilmMemo> memo_for(const RunRequest& request, const Registry& registry, const FilmMemo::Recipe& recipe,
+                                   std::vector<LightRecipe> lights,
                                    const std::function<void(const std::string&)>& warn) {
     if (!request.memo) return nullptr;
     const Tuning& tuning = request.tuning;
     try {
         if (const auto why = why_no_memo(request, registry); !why.empty()) throw Error(why);
         const auto folder = tuning.cache.empty() ? default_cache_folder() : tuning.cache;
-        return std::make_unique<FilmMemo>(recipe, std::make_unique<DiskResultCache>(folder, tuning.cache_size));
+        // Where pictures of fewer samples count, they have the bytes of so many in each layer.
+        if (request.time_limit > 0 || !request.reference.empty()) lights.clear();
+        return std::make_unique<FilmMemo>(recipe, std::move(lights),
+                                          std::make_unique<DiskResultCache>(folder, tuning.cache_size));
     } catch (const Error& error) {
         warn(std::string("no memo: ") + error.what());
         return nullptr;

@@ -14,7 +14,7 @@
 #include "core/base/hash.hpp"
 #include "core/base/this_machine.hpp"
 #include "core/base/unwanted.hpp"
-#include "core/network/graph/check.hpp"
+#include "core/network/graph/single_lights.hpp"
 #include "core/run/assembly/sampling_profiler.hpp"
 #include "core/run/master/master_renderer.hpp"
 #include "core/run/schedule/spot_checks.hpp"
@@ -100,7 +100,8 @@ std::shared_ptr<const Network> Rendering::network_of(LoadedScene scene) {
     const LookingAt looking(what_.request.shown ? &signals_.superseded : nullptr);
     auto network = build_network(what_.job, what_.registry, std::move(scene));
     if (what_.handover) what_.handover->hold(network->scene);
-    if (auto* watcher = book_.account().watcher()) watcher->share(network, what_.made_from, book_.files().scale());
+    if (auto* watcher = book_.account().watcher(); watcher && !leaves_out(what_.job.graph))
+        watcher->share(network, what_.made_from, book_.files().scale());
     return network;
 }
 

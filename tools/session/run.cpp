@@ -106,6 +106,19 @@ void alert_of_lost(RunAccount& account, const Film& film) {
                                       film.format().name_of(layer)));
 }
 
+// False: it came too soon for a picture that is one.
+bool end_in_time(RunRecorder& book, const RunRequest& request) {
+    const Film& film = book.steps().picture();
+    if (film.covered() < 1 || film.format().coarse) {
+        const auto there = write_what_is_there(book, request, {}, "preview");
+        std::cerr << "lightnet: the time was over before every pixel had a sample: " << there << '\n';
+        return false;
+    }
+    book.account().say("the time is over: " + book.end_early() +
+                       (book.keeps_checkpoint() ? "; --resume goes on from here" : ""));
+    return true;
+}
+
 // One run of a checked graph, from its scene to its files. One thread's at a time: another may write the files.
 class Run {
 public:
@@ -130,12 +143,11 @@ private:
     LoadedScene load();
     int write_files();
     int cancelled();
-    bool end_in_time();
     void open_to_watchers();
     std::optional<int> watched(const std::function<std::optional<int>()>& work);
     std::optional<int> reported(const std::function<std::optional<int>()>& work);
     bool show_outcome(const std::string& outcome);
-    void take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made);
+    Graph take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made);
     void report_failure();
 
     const RunRequest& request_;
@@ -150,9 +162,12 @@ private:
     std::optional<PictureLock> lock_;  // until all is written
 };
 
-void Run::take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made) {
+// Returns what is still to be rendered, if anything is.
+Graph Run::take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made) {
     auto recipe = picture_recipe(scene_.job(), registry_, format_, request_.tuning.tile);
     const auto film = film_recipe(scene_.job(), registry_, format_, request_.tuning.tile, made);
+    auto lights = request_.memo ? light_recipes(scene_.job(), registry_, format_, request_.tuning.tile, made)
+                                : std::vector<LightRecipe>();
     const CameraData camera =
         scene.built ? scene.built->seen_from() : camera_in(scene.data, format_.width, format_.height);
     if (watcher_ && request_.shown)
@@ -161,9 +176,10 @@ void Run::take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made) {
     auto words = words_of(request_.graph, registry_, format_, recipe, data_of(scene), camera);
     if (const auto& name = request_.lighting.name; !name.empty()) words.notes.texts["lighting"] = name;
     book_.files().describe(std::move(words));
-    book_.keep_checkpoint(request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint),
-                          memo_for(request_, registry_, film, [this](const auto& why) { book_.account().warn(why); }));
-    book_.take_up_checkpoint(request_.resume);
+    book_.keep_checkpoint(
+        request_.output, std::move(recipe), std::chrono::seconds(request_.tuning.checkpoint),
+        memo_for(request_, registry_, film, std::move(lights), [this](const auto& why) { book_.account().warn(why); }));
+    return book_.take_up_checkpoint(request_.resume, scene_.job().graph, registry_);
 }
 
 // Who edits what is at work waits for the next picture.
@@ -178,7 +194,7 @@ std::optional<int> Run::render_film() {
     LoadedScene scene = load();
     check_inputs(request_, scene_.job(), format_);
     if (scene_.was_there(scene, book_)) return exit_code::done;
-    const MadeFrom made = scene_.made_from(scene);
+    MadeFrom made = scene_.made_from(scene);
     const KeptFiles to_keep(request_.graph, registry_, data_of(scene));
     book_.expose(scene.built ? scene.built->film().scale : scene.data.film.scale);
     book_.limit_time(request_.time_limit);
@@ -190,7 +206,9 @@ std::optional<int> Run::render_film() {
     book_.files().keep_arrays(request_.arrays);
     if (request_.shown) book_.show_steps(request_.output, request_.shown);
     if (request_.preview > 0) book_.so_far().preview(request_.output, request_.preview);
-    take_up_checkpoint(scene, made);
+    Job job = scene_.job();
+    job.graph = take_up_checkpoint(scene, made);
+    if (leaves_out(job.graph)) made = made_from(job, registry_, scene);
     if (book_.steps().finished() && request_.resume && book_.files().is_there(request_.output)) {
         book_.account().say(request_.output + " is finished: nothing to do; ask for more with --samples");
         return exit_code::done;
@@ -200,10 +218,10 @@ std::optional<int> Run::render_film() {
     if (book_.steps().finished() && handover_)
         handover_->leave(scene);
     else if (!book_.steps().finished())
-        Rendering({request_, registry_, scene_.job(), format_, to_keep, made, handover_}, book_, signals_)
+        Rendering({request_, registry_, job, format_, to_keep, made, handover_}, book_, signals_)
             .perform(std::move(scene), scene_.files());
     if (signals_.any) return cancelled();
-    if (!book_.steps().finished() && !end_in_time()) return exit_code::failed;
+    if (!book_.steps().finished() && !end_in_time(book_, request_)) return exit_code::failed;
     return std::nullopt;
 }
 
@@ -221,19 +239,6 @@ int Run::cancelled() {
     const auto there = write_what_is_there(book_, request_, time_to_end(signals_), "cancelled");
     std::cerr << "cancelled: " << there << '\n';
     return exit_code::interrupted;
-}
-
-// False: it came too soon for a picture that is one.
-bool Run::end_in_time() {
-    const Film& film = book_.steps().picture();
-    if (film.covered() < 1 || film.format().coarse) {
-        const auto there = write_what_is_there(book_, request_, {}, "preview");
-        std::cerr << "lightnet: the time was over before every pixel had a sample: " << there << '\n';
-        return false;
-    }
-    book_.account().say("the time is over: " + book_.end_early() +
-                        (book_.keeps_checkpoint() ? "; --resume goes on from here" : ""));
-    return true;
 }
 
 void Run::open_to_watchers() {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/own_files.hpp"
 #include "core/base/words_of.hpp"
 #include "core/film/clean/rounds.hpp"
@@ -53,6 +54,7 @@ void RunRecorder::show(const Watcher::Hosts& hosts) {
 
 std::vector<Tile> RunRecorder::next_step() {
     const auto now = Clock::now();
+    if (checkpoint_ && steps_.finished()) checkpoint_->lights().complete(steps_.film());
     auto tiles = steps_.next(now);
     note_error(now);
     if (!tiles.empty()) so_far_.step();
@@ -62,7 +64,8 @@ std::vector<Tile> RunRecorder::next_step() {
 
 std::vector<Tile> RunRecorder::take(const Tile& tile, std::span<const Rgb> pixels) {
     Film& film = steps_.film_of(tile);
-    const bool added = film.add(tile, pixels);
+    const bool knows = checkpoint_ && checkpoint_->lights().are_shown();
+    const bool added = knows ? film.add(tile, checkpoint_->lights().shown_in(tile, pixels)) : film.add(tile, pixels);
     const bool wanted = added || !film.has(tile);
     auto next = wanted ? film.more(tile) : std::vector<Tile>{};
     const auto of_round =
@@ -130,16 +133,23 @@ void RunRecorder::keep_checkpoint(const std::string& exr, std::map<std::string, 
     checkpoint_->remember_in(std::move(memo));
 }
 
-void RunRecorder::take_up_checkpoint(bool resume) {
-    if (!resume && !checkpoint_->remembers()) return;
+Graph RunRecorder::take_up_checkpoint(bool resume, const Graph& graph, const Registry& registry) {
+    Graph wanted = graph;
+    if (!resume && !checkpoint_->remembers()) return wanted;
     const auto file = checkpoint_->file().string();
     const auto restore = [this](FilmState state) { steps_.restore(std::move(state)); };
     const bool there = resume && checkpoint_->take_up(restore);
     if (resume) account_.say(there ? "going on from " + file : "there is no " + file + "; beginning at the beginning");
     if (!there && checkpoint_->remembers()) {
         const bool known = checkpoint_->recall(restore);
+        checkpoint_->recall_lights(graph, registry);
+        const KnownLights& lights = checkpoint_->lights();
+        if (!lights.empty()) wanted = lights.rest();
         account_.set("memo", fmt::format("{:.10g}", known ? steps_.film().mean_samples() : 0));
-        account_.say(!known ? std::string("memo: nothing of this picture is there; all of it is rendered")
+        account_.set("memo_layers", joined(lights.names()));
+        account_.say(!lights.empty()
+                         ? "memo: layers that are there: " + joined(lights.names()) + "; the others are rendered"
+                     : !known ? std::string("memo: nothing of this picture is there; all of it is rendered")
                      : steps_.finished()
                          ? "memo: all of this picture is there; nothing is rendered"
                          : fmt::format("memo: {:.10g} samples per pixel of {} are there; the others are rendered",
@@ -148,6 +158,7 @@ void RunRecorder::take_up_checkpoint(bool resume) {
     blocks_ = steps_.found();
     if (there) checkpoint_->found(blocks_);
     if (blocks_) account_.progress().found_done(blocks_, Clock::now());
+    return wanted;
 }
 
 bool RunRecorder::save_checkpoint(std::optional<std::chrono::duration<double>> most) {

@@ -66,10 +66,11 @@ public:
     void keep_checkpoint(const std::string& exr, std::map<std::string, std::string> recipe, std::chrono::seconds period,
                          std::unique_ptr<FilmMemo> memo = nullptr);
     /// Takes up what an earlier run left there, if anything and if that is wanted; else what the memo has. Throws
-    /// UserError when what was left there was another picture's.
-    void take_up_checkpoint(bool resume);
+    /// UserError when what was left there was another picture's. Returns the graph of which tiles are wanted: that one,
+    /// or what the memo leaves of it.
+    Graph take_up_checkpoint(bool resume, const Graph& graph, const Registry& registry);
     /// There is something worth to be kept.
-    bool keeps_checkpoint() const { return checkpoint_ && blocks_ > 0; }
+    bool keeps_checkpoint() { return checkpoint_ && blocks_ > 0 && !checkpoint_->lights().are_shown(); }
     /// Saves what is there now; false: nothing was worth it. Where that would take longer than `most`, what was saved
     /// last stays, which is said.
     bool save_checkpoint(std::optional<std::chrono::duration<double>> most = {});

@@ -222,6 +222,17 @@ void add_lamp_params(Kind& kind) {
                                .initial = Value{false}});
 }
 
+Kind kind_of_left_out() {
+    Kind kind;
+    kind.name = left_out_kind;
+    kind.help = "answers black";
+    kind.light.space = kind.light.lamps = kind.light.groups = true;
+    kind.light.paths = always({});
+    kind.reads = reading(SceneParts());
+    add_lamp_params(kind);
+    return kind;
+}
+
 }  // namespace
 
 std::function<SceneParts(const Node&)> reading(SceneParts parts) {
@@ -262,6 +273,8 @@ void Registry::add_plugin(const std::string& plugin, std::vector<Kind> kinds) {
 }
 
 const Kind* Registry::find(std::string_view name) const {
+    static const Kind left_out = kind_of_left_out();
+    if (name == left_out_kind) return &left_out;
     const auto at = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.name == name; });
     return at == kinds_.end() ? nullptr : &*at;
 }

@@ -145,6 +145,9 @@ struct Kind {
     /// What a node (defaults filled in) may read of the scene: of the rest it sees nothing. Results of earlier runs
     /// serve again where all that was read is as it was. None: all of it.
     std::function<SceneParts(const Node&)> reads = {};
+    /// Of a renderer: what its questions hang on, of all that it reads. Where that is as it was, so is the light of
+    /// whoever answers them. None: all of it.
+    std::function<SceneParts(const Node&)> asks_by = {};
     std::function<std::unique_ptr<LightOp>(const NodeContext&)> make_light = {};
     std::function<std::unique_ptr<Renderer>(const NodeContext&)> make_renderer = {};
 };
@@ -155,8 +158,11 @@ PassedOn passed_on(const Kind& kind, const Node& node);
 /// What a node of the kind may read of the scene.
 SceneParts reads_of(const Kind& kind, const Node& node);
 
+/// The kind of nodes whose light is not asked for: it is there already. They answer black. No graph file can name it.
+inline constexpr const char* left_out_kind = "(left out)";
+
 /// All kinds that a program knows, in order of name. Given by main; nothing registers itself. The kind Scene, which
-/// is data and no node that anybody makes, is always among them.
+/// is data and no node that anybody makes, is always among them; what is left out is found, and is not among them.
 class Registry {
 public:
     explicit Registry(std::vector<Kind> kinds);

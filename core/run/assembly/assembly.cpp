@@ -24,6 +24,12 @@ std::vector<std::uint32_t> positions(const Terminals& part, const Terminals& who
     return at;
 }
 
+/// See left_out_kind.
+class LeftOut final : public LightOp {
+public:
+    void light(std::span<const Query>, std::span<Rgb>) const override {}
+};
+
 template <class Make>
 auto made(const Network& network, std::size_t node, Inputs inputs, const NodeServices& services, const Make& make) {
     const auto& what = network.graph.nodes[whole_of(network.graph, node)];  // nobody knows that it has a sector
@@ -134,6 +140,7 @@ std::map<std::string, std::uint64_t> by_name(const Network& network,
 }
 
 std::unique_ptr<LightOp> Assembly::make_light(std::size_t node, const Inputs& inputs, std::uint32_t pass) {
+    if (network_.graph.nodes[node].kind == left_out_kind) return std::make_unique<LeftOut>();
     NodeServices services = services_of(node);
     services.pass = pass;
     return made(network_, node, inputs, services, network_.kind_of(node).make_light);

@@ -6,6 +6,7 @@
 #include "core/network/graph/check.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "core/network/graph/json.hpp"
+#include "core/network/graph/lamp_groups.hpp"
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plugin_use.hpp"
 #include "core/scene/camera_in.hpp"
@@ -183,9 +184,11 @@ MadeFrom made_from(const Job& job, const Registry& registry, LoadedScene& scene)
     if (!scene.tree && !scene.built) scene.tree = tree_of(scene.data);
     if (!scene.tree) return made;
     for (const auto& [node, bytes] : scene.kept) made.run += "\n" + node + " from " + to_hex(content_hash(*bytes));
+    const auto groups = lamp_groups(job.graph, registry);
     for (std::size_t i = 0; i < written_nodes(job.graph); ++i) {
         const Node& node = job.graph.nodes[i];
         const Kind& kind = *registry.find(node.kind);
+        made.lamps.push_back(groups_wanted(node, groups));
         made.reads.push_back(kind.role == Role::scene ? SceneParts() : reads_of(kind, node));
     }
     made.light = text_of_light(job.graph, registry);

@@ -108,11 +108,14 @@ std::string text_of_light(const Graph& graph, const Registry& registry) {
     return text_of(std::move(light)) + '\n' + std::to_string(film.width) + ' ' + std::to_string(film.height);
 }
 
-SceneParts all_read(const MadeFrom& made_from, const std::vector<bool>& used) {
-    SceneParts read;
+Hash hash_of_read(const MadeFrom& made_from, const std::vector<bool>& used, SceneParts more) {
+    GroupSet lamps = more.contain(ScenePart::lamps) ? all_groups : 0;
     for (std::size_t i = 0; i < made_from.reads.size(); ++i)
-        if (used[i]) read |= made_from.reads[i];
-    return read;
+        if (used[i]) {
+            more |= made_from.reads[i];
+            if (made_from.reads[i].contain(ScenePart::lamps)) lamps |= made_from.lamps[i];
+        }
+    return made_from.scene->of(more, lamps);
 }
 
 Recipes::Recipes(const Graph& graph, MadeFrom made_from) : graph_(graph), made_from_(std::move(made_from)) {
@@ -129,7 +132,7 @@ Recipes::Recipes(const Graph& graph, MadeFrom made_from) : graph_(graph), made_f
 
 std::string Recipes::text_of_scene(const std::vector<bool>& used) const {
     if (!made_from_.scene) return made_from_.files + '\n' + scene_text(graph_);
-    return to_hex(made_from_.scene->of(all_read(made_from_, used)));
+    return to_hex(hash_of_read(made_from_, used));
 }
 
 Hash Recipes::of(std::size_t node, std::uint32_t call, bool rehearsed, const std::string& part) const {

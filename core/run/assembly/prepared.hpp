@@ -11,6 +11,7 @@
 
 #include "core/base/bytes.hpp"
 #include "core/base/hash.hpp"
+#include "core/base/lamp_groups.hpp"
 #include "core/base/query.hpp"
 #include "core/film/tile.hpp"
 #include "core/network/graph/graph.hpp"
@@ -58,10 +59,11 @@ struct MadeFrom {
     std::string files{};               // of the scene; they count where nobody has looked into it
     std::optional<SceneTree> scene{};  // with camera and film
     std::vector<SceneParts> reads{};   // by node of the graph
+    std::vector<GroupSet> lamps{};     // likewise: those that it looks for, if it reads lamps
     std::string light{};               // text_of_light() of it
 };
-/// What these nodes of a graph read, all together.
-SceneParts all_read(const MadeFrom& made_from, const std::vector<bool>& used);
+/// Names what these nodes of a graph read of a scene that somebody has looked into, and `more` of it.
+Hash hash_of_read(const MadeFrom& made_from, const std::vector<bool>& used, SceneParts more = {});
 
 /// Names for results of preparing: equal recipes give equal results.
 class Recipes {

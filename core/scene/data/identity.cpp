@@ -1,5 +1,6 @@
 #include "core/scene/data/identity.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
@@ -150,6 +151,15 @@ std::vector<Hash> hashes_of_lamps(Pictures& pictures, const SceneData& scene) {
     return hashes;
 }
 
+// Those of some groups, and where all stand.
+Hash hash_of_lamps(const SceneTree& tree, GroupSet groups) {
+    if (groups == all_groups) return tree.parts.at(ScenePart::lamps);
+    std::string text = to_hex(tree.parts.at(ScenePart::geometry));
+    for (std::size_t group = 0; group < std::min(tree.lamps.size(), most_groups); ++group)
+        if (groups >> group & 1) text += ' ' + std::to_string(group) + ' ' + to_hex(tree.lamps[group]);
+    return content_hash(text);
+}
+
 Hash hash_of_names(Pictures& pictures, const SceneData& scene) {
     Sum sum(pictures);
     for (const auto& shape : scene.shapes) {
@@ -200,13 +210,14 @@ void SceneTree::look_by(const CameraData& camera, const FilmData& film) {
     parts[ScenePart::film] = hash_of(none, film.width, film.height, film.scale, film.crop);
 }
 
-Hash SceneTree::of(SceneParts some) const {
+Hash SceneTree::of(SceneParts some, GroupSet groups) const {
     std::string text;
     for (const ScenePart part : all_scene_parts)
         if (some.contain(part)) {
             const auto found = parts.find(part);
             if (found == parts.end()) throw Error("scene", "nobody has looked into its " + to_string(part));
-            text += to_string(part) + ' ' + to_hex(found->second) + '\n';
+            const Hash hash = part == ScenePart::lamps ? hash_of_lamps(*this, groups) : found->second;
+            text += to_string(part) + ' ' + to_hex(hash) + '\n';
         }
     return content_hash(text);
 }

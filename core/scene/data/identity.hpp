@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/hash.hpp"
+#include "core/base/lamp_groups.hpp"
 #include "core/base/scene_parts.hpp"
 #include "core/scene/data/scene_data.hpp"
 
@@ -20,8 +21,8 @@ struct SceneTree {
     std::vector<Hash> lamps;                                   // by group: all that shines, environments included
     std::map<ScenePart, Hash> parts;  // each with what it hangs on: holes of a shape on textures, lamps on shapes
 
-    /// Of some parts together. Throws Error where it has not all of them.
-    Hash of(SceneParts some) const;
+    /// Of some parts together, of lamps those of these groups. Throws Error where it has not all of them.
+    Hash of(SceneParts some, GroupSet groups = all_groups) const;
     /// Adds the camera and the film: those that are used.
     void look_by(const CameraData& camera, const FilmData& film);
 };
