@@ -104,6 +104,48 @@ private:
     int edits_ = -1;
 };
 
+class FirstLook : public SessionTest, public testing::WithParamInterface<std::vector<std::string>> {};
+
+TEST_P(FirstLook, ShowsWhatPreparesNothingBeforeTheRestDoes) {
+    const auto graph = [](const std::string& samples) {
+        return R"(scene = Scene { "box.pbrt" }
+glow = PhotonMap { photons = 3000, paths = "diffuse" }
+light = DirectLighting { samples = )" +
+               samples + R"( }
+both = Combine { light, glow }
+image = RayTracer { both, scene = scene, samples = 4, film = { 32, 24 } }
+)";
+    };
+    write(folder / "g.lua", graph("1"));
+    begin(GetParam());
+    wait_for_picture(0);
+    say(R"({"set":{"light.samples":2}})");
+    wait_for_picture(1);
+    EXPECT_EQ(end(), 0) << session_->output();
+    std::vector<Tree> first;
+    for (const auto& event : events())
+        if (event["event"] == "picture" && (first.empty() || event["edit"] != first.back()["edit"]))
+            first.push_back(event);
+    ASSERT_EQ(first.size(), 2u);
+    for (const auto& event : first) {
+        EXPECT_EQ(event["coarse"], true);
+        EXPECT_EQ(event["without"], Tree::array({"glow"})) << event;
+    }
+    write(folder / "fresh.lua", graph("2"));
+    test::Process run({test::program("lightnet"), "run", folder / "fresh.lua", "-o", folder / "fresh.exr", "--threads",
+                       "1", "--cache", "none"});
+    EXPECT_EQ(run.wait(), 0) << run.output();
+    EXPECT_TRUE(now() == test::bytes_of(folder / "fresh.exr"));
+    if (!test::schemas_can_be_checked()) return;
+    write(folder / "events", session_->output());
+    EXPECT_EQ(test::complaints_of_schema("session", folder / "events", true), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, FirstLook,
+                         testing::Values(std::vector<std::string>{"--threads", "2"},
+                                         std::vector<std::string>{"--local-workers", "1"},
+                                         std::vector<std::string>{"--threads", "1"}));
+
 TEST_F(SessionTest, GivesEachEditTheBytesOfAFreshRun) {
     begin();
     wait_for_picture(0);

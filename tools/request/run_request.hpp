@@ -61,6 +61,7 @@ struct PictureShown {
     bool finished = false, coarse = false;               // all samples are there; it is a first look, see coarse_look()
     std::vector<std::string> warnings;                   // of the run, so far
     std::vector<std::pair<std::string, double>> took{};  // seconds of its parts, one after the other, by name
+    std::vector<std::string> without{};                  // layers that a first look lacks, as their nodes prepare
 };
 
 /// What a user may say of a run, and the run takes as it is said: an option of `run` is a member here, and a line where

@@ -68,6 +68,7 @@ void PictureSoFar::tell_shown(bool finished, double writing) {
     const Film& film = steps_.picture();
     const RunReport& report = account_.report();
     PictureShown shown{film.mean_samples(), finished, film.format().coarse, report.warnings, {}};
+    if (shown.coarse) shown.without = without_;
     for (const auto& phase : report.phases) shown.took.emplace_back(phase.name, phase.seconds);
     if (const auto begun = account_.phases().begun()) shown.took.back().second = seconds_since(*begun) - writing;
     if (writing > 0) shown.took.emplace_back("write", writing);

@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/request/run_request.hpp"
 #include "tools/session/film_steps.hpp"
@@ -32,6 +34,8 @@ public:
 
     /// From now on, the picture is written after each step, the first of which is coarse, and that is said.
     void show_steps(const std::string& exr, std::function<void(const PictureShown&)> shown);
+    /// Of the coarse look: these layers are not in it.
+    void look_without(std::vector<std::string> layers) { without_ = std::move(layers); }
     /// A step is over.
     void step();
     /// Says that the picture is written, which took `writing` seconds of the phase; none: nobody wants to know.
@@ -53,6 +57,7 @@ private:
     std::string step_exr_;
     std::function<void(const PictureShown&)> shown_;  // none: steps are not written
     double step_ = 0;                                 // samples, of the last step
+    std::vector<std::string> without_;                // layers that the coarse look lacks
 };
 
 }  // namespace lightnet

@@ -137,7 +137,7 @@ void Rendering::render(SerialRun& run) {
     run.prepare(what_.made_from, cache(), say, TilesByPass(what_.job.graph, what_.registry, tiles).pass());
     what_.kept.write([&](std::size_t node) { return run.last_result(node); }, book_);
     book_.account().phase("render");
-    for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
+    for (; what_.wants(tiles) && !ended(); tiles = book_.next_step()) {
         TilesByPass passes(what_.job.graph, what_.registry, tiles);
         while (!passes.empty() && !ended()) {
             auto pass = passes.begin_next();
@@ -224,7 +224,7 @@ void Rendering::hand_out(Carrier& carrier, const Plan& plan, const Crowd& crowd)
     if (!what_.request.tuning.verify) write_kept();
     book_.account().phase("render");
     const Attention attention(book_, coordinator);
-    for (; !tiles.empty() && !ended(); tiles = book_.next_step()) {
+    for (; what_.wants(tiles) && !ended(); tiles = book_.next_step()) {
         attention.check();
         TilesByPass passes(what_.job.graph, what_.registry, tiles);
         while (!passes.empty() && !ended()) hand_out_pass(coordinator, passes, crowd, attention);

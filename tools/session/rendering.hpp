@@ -41,6 +41,9 @@ struct Assignment {
     const KeptFiles& kept;
     const MadeFrom& made_from;
     Handover* handover = nullptr;  // between the runs of a sequence; null: this one is alone
+    bool look_alone = false;       // no more than the coarse look
+
+    bool wants(const std::vector<Tile>& tiles) const { return !tiles.empty() && (tiles.front().coarse || !look_alone); }
 };
 
 /// This process as a host, for display.

@@ -26,6 +26,7 @@
 #include "tools/request/run_settings.hpp"
 #include "tools/session/delivery.hpp"
 #include "tools/session/film_memo.hpp"
+#include "tools/session/first_look.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/kept_files.hpp"
 #include "tools/session/rendering.hpp"
@@ -141,6 +142,7 @@ public:
 private:
     std::optional<int> render_film();
     LoadedScene load();
+    bool look_first(const Job& job, const MadeFrom& made, LoadedScene& scene);
     int write_files();
     int cancelled();
     void open_to_watchers();
@@ -188,6 +190,19 @@ LoadedScene Run::load() {
     return scene_.load(book_);
 }
 
+// True: somebody who waits has been shown what is there before nodes prepare, and the scene was left to the next.
+bool Run::look_first(const Job& job, const MadeFrom& made, LoadedScene& scene) {
+    if (!request_.shown || !handover_) return false;
+    const auto look = first_look(request_, registry_, job, made);
+    if (!look) return false;
+    book_.so_far().look_without(look->without);
+    const MadeFrom nothing = made_from(look->job);
+    const KeptFiles none(look->job.graph, registry_, data_of(scene));
+    Rendering({request_, registry_, look->job, format_, none, nothing, handover_, true}, book_, signals_)
+        .perform(std::move(scene), scene_.files());
+    return true;
+}
+
 std::optional<int> Run::render_film() {
     if (const auto words = words_of_lighting(request_); !words.empty()) book_.account().say(words);
     book_.account().phase("load");
@@ -215,6 +230,8 @@ std::optional<int> Run::render_film() {
     }
     if (book_.steps().finished() && request_.resume)
         book_.account().say(request_.output + " is finished but for its file");
+    if (!book_.steps().finished() && look_first(job, made, scene)) scene = load();
+    if (signals_.any) return cancelled();
     if (book_.steps().finished() && handover_)
         handover_->leave(scene);
     else if (!book_.steps().finished())

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/json.hpp"
 #include "core/base/json_tree.hpp"
 #include "core/base/words_of.hpp"
@@ -170,17 +171,21 @@ private:
         JsonTree warnings = JsonTree::list();
         for (const auto& warning : shown.warnings) warnings.push_back(warning);
         JsonTree took{{"stop", stop_}, {"read", read_}};
-        for (const auto& [part, its_seconds] : shown.took) took[part] = its_seconds;
+        std::map<std::string, double> parts;  // one that is there twice: of a look, and of what follows it
+        for (const auto& [part, its_seconds] : shown.took) parts[part] += its_seconds;
+        for (const auto& [part, its_seconds] : parts) took[part] = its_seconds;
+        std::map<std::string, JsonTree> members{
+            {"file", request.output},         {"samples", shown.samples}, {"coarse", shown.coarse},
+            {"finished", shown.finished},     {"seconds", seconds},       {"took", std::move(took)},
+            {"warnings", std::move(warnings)}};
+        JsonTree without = JsonTree::list();
+        for (const auto& layer : shown.without) without.push_back(layer);
+        if (!shown.without.empty()) members["without"] = std::move(without);
         events_.tell("picture",
-                     fmt::format("{}: {:.10g} samples per pixel, {:.2f} s{}", request.output, shown.samples, seconds,
-                                 shown.finished ? "" : " so far"),
-                     {{"file", request.output},
-                      {"samples", shown.samples},
-                      {"coarse", shown.coarse},
-                      {"finished", shown.finished},
-                      {"seconds", seconds},
-                      {"took", std::move(took)},
-                      {"warnings", std::move(warnings)}});
+                     fmt::format("{}: {:.10g} samples per pixel, {:.2f} s{}{}", request.output, shown.samples, seconds,
+                                 shown.finished ? "" : " so far",
+                                 shown.without.empty() ? "" : ", without " + joined(shown.without)),
+                     std::move(members));
     }
 
     int leave(int code) {

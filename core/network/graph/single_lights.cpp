@@ -171,6 +171,21 @@ Graph without_lights(const Graph& graph, const Registry& registry, std::vector<S
     return rest;
 }
 
+Graph without_preparing(const Graph& graph, const Registry& registry) {
+    Graph rest = graph;
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+        const Kind& kind = *registry.find(graph.nodes[node].kind);
+        if (kind.role != Role::light || kind.light.linear) continue;
+        const auto below = used_nodes(graph, node);
+        for (std::size_t i = 0; i < below.size(); ++i)
+            if (below[i] && registry.find(graph.nodes[i].kind)->run.prepares) {
+                leave_out(rest.nodes[node]);
+                break;
+            }
+    }
+    return rest;
+}
+
 bool leaves_out(const Graph& graph) {
     return std::any_of(graph.nodes.begin(), graph.nodes.end(),
                        [](const Node& node) { return node.kind == left_out_kind; });

@@ -27,6 +27,8 @@ std::vector<SingleLight> single_lights(const Graph& graph, const Registry& regis
 /// The graph with nodes that answer black in the place of those. Lights are taken out of `known` where others ask their
 /// nodes, too, whose light is still wanted. The layers of the image stay as they are called.
 Graph without_lights(const Graph& graph, const Registry& registry, std::vector<SingleLight>& known);
+/// It with nodes that answer black for all that prepare, or ask somebody who does: what is left shows at once.
+Graph without_preparing(const Graph& graph, const Registry& registry);
 /// Is anything left out of it?
 bool leaves_out(const Graph& graph);
 

@@ -94,6 +94,7 @@ export interface Edited {
     edit: number;
     samples?: number;
     coarse?: boolean; // a first look
+    without?: string[]; // layers that it lacks, as their nodes prepare
     finished?: boolean;
     seconds?: number;
     problems?: { file: string; line: number; what: string }[];
