@@ -320,6 +320,13 @@ TEST(SceneTree, HasABranchForEachGroupOfLamps) {
     EXPECT_EQ(after.lamps[0], before.lamps[0]);
     EXPECT_NE(after.lamps[1], before.lamps[1]);
     EXPECT_EQ(after.lamps[2], before.lamps[2]);
+    const auto lamps = [](const SceneTree& tree, GroupSet groups) { return tree.of(scene_of_light, groups); };
+    EXPECT_EQ(lamps(after, 0b101), lamps(before, 0b101)) << "of those who look for others";
+    EXPECT_NE(lamps(after, 0b110), lamps(before, 0b110));
+    EXPECT_NE(lamps(after, all_groups), lamps(before, all_groups));
+    EXPECT_NE(lamps(before, 0b001), lamps(before, 0b100));
+    scene.instances[0].to_world.m[0][3] = 7;
+    EXPECT_NE(lamps(tree_of(scene), 0b101), lamps(before, 0b101)) << "whatever lamps shine on";
 }
 
 TEST(SceneTree, KnowsCameraAndFilmWhenItIsTold) {
