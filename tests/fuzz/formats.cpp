@@ -184,6 +184,10 @@ std::vector<std::string> obj_seeds() {
             "m.mtl\nnewmtl b\nillum 7\nNi 1.5\nbump "
             "-bm 2 p.hdr\n",
         square + "g x\no y\nusemtl none\nf 1 2 3\n",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nvt 0 0\nf 1/1 2/1 3/1 4/1\nf 1 5 6 2\nf 5 1 4\nt crease "
+        "4/2/0 "
+        "0 1 0 4 9 2\nt corner 1/1/0 2 1.5\nt hole 1/0/0 2\nt interpolateboundary 1/0/0 1\nt creasemethod 0/0/1 "
+        "chaikin\n",
         "\xEF\xBB\xBFmtllib my m.mtl M.MTL C:\\m.mtl # all\n" + square + "usemtl a\nf 1/1/1 2/-1/-1 3/9/9\n" +
             std::string(1, '\0') +
             "\xEF\xBB\xBFnewmtl a\nmap_Kd -imfchan r -texres 9 C:\\lost\\P.HDR\nmap_Ke gone.png\nbump m.mtl\nmap_d\n"};
