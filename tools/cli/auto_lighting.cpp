@@ -184,7 +184,6 @@ LightingOfRun lighting_by_trials_of(const UnlitPicture& picture, const Launcher&
 }
 
 LightingOfRun lighting_of_earlier(const std::vector<std::string>& pictures) {
-    constexpr std::uint64_t longest_report = std::uint64_t{256} << 20;
     for (const auto& picture : pictures)
         for (const auto& file : {report_beside(picture), failed_report_beside(picture)}) try {
                 const Json report = parse_json(PlainFile(file, longest_report).text(), {.depth = 64});

@@ -27,8 +27,8 @@ std::optional<Amount> amount_in(const std::string& text) {
 }
 
 std::optional<double> times_of_unit(const std::string& unit, const std::vector<std::pair<const char*, double>>& units) {
-    for (const auto& [name, times] : units)
-        if (unit == name) return times;
+    for (const auto& [name, factor] : units)
+        if (unit == name) return factor;
     return std::nullopt;
 }
 

@@ -15,11 +15,6 @@
 #include "tools/support/run_report.hpp"
 
 namespace lightnet {
-namespace {
-
-constexpr std::size_t longest_report = std::size_t{64} << 20;
-
-}  // namespace
 
 std::size_t SequenceReport::count(const std::string& wanted) const {
     return static_cast<std::size_t>(

@@ -126,6 +126,9 @@ struct RunReport {
     std::vector<std::string> warnings;
 };
 
+/// Bytes of one that is read.
+inline constexpr std::uint64_t longest_report = std::uint64_t{256} << 20;
+
 /// All reports begin with this.
 inline constexpr std::string_view report_beginning = "{\n  \"format\": \"lightnet run ";
 

@@ -21,7 +21,6 @@ namespace lightnet {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uint64_t longest_report = std::uint64_t{64} << 20;
 constexpr double for_ever = 1e9;
 
 /// What phases of a run took, by its report: seconds on the clock.

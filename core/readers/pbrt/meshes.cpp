@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/readers/common/mesh_tools.hpp"
 #include "core/readers/pbrt/subdivision.hpp"
 
 namespace lightnet::pbrt {
@@ -15,21 +16,6 @@ namespace {
 Vec3 unit_or_zero(Vec3 v) {
     const float size = length(v);
     return size > 0 && std::isfinite(size) ? v / size : Vec3{};
-}
-
-/// pbrt lets the shading normals decide on which side of a triangle its normal is. Vertices without a sound normal get
-/// the one of a triangle.
-void order_by_normals(Mesh& mesh) {
-    for (auto& t : mesh.triangles) {
-        Vec3 n = cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
-        if (mesh.flip_normals) n = -n;
-        for (const auto i : t)
-            if (length_squared(mesh.normals[i]) == 0) mesh.normals[i] = unit_or_zero(n);
-        const Vec3 shading = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
-        const bool against = dot(n, shading) < 0;
-        if (against != mesh.flip_normals) std::swap(t[1], t[2]);
-    }
-    mesh.flip_normals = false;
 }
 
 /// The numbers of a parameter as vertex indices. None: reported.

@@ -7,16 +7,9 @@
 
 #include "core/run/message/tuning.hpp"
 #include "core/run/place/full_bundle.hpp"
+#include "core/run/place/relief_terms.hpp"
 
 namespace lightnet {
-namespace {
-
-// As relief is, see place_relief.cpp.
-constexpr double enough = 0.02, worth_waiting = 2, own_piece = 5e-4;
-constexpr std::size_t least_bundle = 64, most_own = 4;
-
-}  // namespace
-
 SimulatedPort::SimulatedPort(EventQueue& events, Target target, Strategy strategy, SimulatedReplicas::Send send)
     : events_(events), target_(std::move(target)), replicas_(events, strategy, std::move(send)) {}
 
@@ -70,17 +63,18 @@ void SimulatedPort::flush(bool idle) {
 
 void SimulatedPort::share_out() {
     while (waiting_ > 0) {
-        const auto size = std::min({full(), std::max(waiting_ / (2 * (target_.helpers + 1)), least_bundle), waiting_});
+        const auto size =
+            std::min({full(), std::max(waiting_ / (2 * (target_.helpers + 1)), relief::least_bundle), waiting_});
         const auto soonest = replicas_.scheduler().order().soonest(size);
         const double own = target_.own_seconds * static_cast<double>(waiting_);
-        if (!soonest || *soonest > enough || *soonest > worth_waiting * own) return;
+        if (!soonest || *soonest > relief::enough || *soonest > relief::worth_waiting * own) return;
         send(size);
     }
 }
 
 std::optional<SimulatedAsk> SimulatedPort::take_own() {
-    if (target_.own_seconds <= 0 || waiting_ == 0 || own_ >= most_own) return std::nullopt;
-    const auto most = static_cast<std::size_t>(std::clamp(own_piece / target_.own_seconds, 1.0, 1024.0));
+    if (target_.own_seconds <= 0 || waiting_ == 0 || own_ >= relief::most_own) return std::nullopt;
+    const auto most = static_cast<std::size_t>(std::clamp(relief::own_piece / target_.own_seconds, 1.0, 1024.0));
     ++own_;
     auto ask = take(std::min(waiting_, most));
     ask.answered = [this, answered = std::move(ask.answered)](const SimulatedLoad& load) {

@@ -8,15 +8,10 @@
 #include "core/base/error.hpp"
 #include "core/run/place/full_bundle.hpp"
 #include "core/run/place/place_ports.hpp"
+#include "core/run/place/relief_terms.hpp"
 
 namespace lightnet {
 namespace {
-
-constexpr double enough = 0.02;           // seconds of work: helpers are asked again long before they have done it
-constexpr std::size_t least_bundle = 64;  // questions, and as many as long as nobody knows how long they take
-constexpr double worth_waiting = 2;       // times as long as this place would need for all that waits
-constexpr double own_piece = 5e-4;        // seconds that this place takes for them at once
-constexpr std::size_t most_own = 4;       // such pieces at the same time, of nodes that ask on
 
 // Other places that hold the node, but not all that this one holds: such have as much to do as this one.
 std::vector<std::uint32_t> helpers(const Plan& plan, const PlaceAt& me, std::size_t node) {
@@ -66,10 +61,11 @@ void PlacePorts::share_out() {
         auto& [key, remote] = *found;
         while (const std::size_t waiting = remote.port->waiting()) {
             const auto size = std::min(full_bundle(at_.tuning.bundle, remote.own_seconds),
-                                       std::max(waiting / (2 * (relieved.helpers + 1)), least_bundle));
+                                       std::max(waiting / (2 * (relieved.helpers + 1)), relief::least_bundle));
             const auto soonest = remote.port->replicas().scheduler().order().soonest(std::min(size, waiting));
-            if (!soonest || *soonest > enough) break;
-            if (remote.own_seconds > 0 && *soonest > worth_waiting * remote.own_seconds * double(waiting)) break;
+            if (!soonest || *soonest > relief::enough) break;
+            if (remote.own_seconds > 0 && *soonest > relief::worth_waiting * remote.own_seconds * double(waiting))
+                break;
             remote.port->share(size);
         }
     }
@@ -80,12 +76,12 @@ bool PlacePorts::start_own() {
         const auto found = remotes_.find(relieved.key);
         if (found == remotes_.end() || found->second.port->waiting() == 0) continue;
         auto& remote = found->second;
-        if (remote.own_fibers >= most_own) continue;
+        if (remote.own_fibers >= relief::most_own) continue;
         const double seconds = remote.own_seconds;
-        const auto size = seconds > 0
-                              ? std::clamp<std::size_t>(static_cast<std::size_t>(std::min(own_piece / seconds, 1e9)), 1,
-                                                        at_.tuning.bundle)
-                              : least_bundle;
+        const auto size =
+            seconds > 0 ? std::clamp<std::size_t>(static_cast<std::size_t>(std::min(relief::own_piece / seconds, 1e9)),
+                                                  1, at_.tuning.bundle)
+                        : relief::least_bundle;
         auto bundle = remote.port->take_back(size);
         at_.fibers.start(at_.network.graph.nodes[relieved.key.first].name.c_str(),
                          [this, relieved, bundle = std::move(bundle)] { answer_own(relieved, bundle); });

@@ -17,8 +17,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Of the answer to one ask, beyond which no further shard is begun.
-constexpr auto worth_the_way = std::chrono::milliseconds(50);  // beside them, some hundred µs of sending are little
-constexpr std::size_t most_bytes = 4e6;
+constexpr auto answer_worth_the_way =
+    std::chrono::milliseconds(50);  // beside them, some hundred µs of sending are little
+constexpr std::size_t most_answer_bytes = 4e6;
 
 const Step& step_of(const Message& ask) { return std::get<Questions<Step>>(ask.questions)->front(); }
 
@@ -99,7 +100,7 @@ public:
             }
         } busy(*this);
         ShardJoiner joined(step.count);
-        const auto end = Clock::now() + worth_the_way;
+        const auto end = Clock::now() + answer_worth_the_way;
         std::size_t bytes = 0;
         for (std::uint32_t i = 0; i < step.count && waiting_; ++i) {
             look();
@@ -107,7 +108,7 @@ public:
             (*work_)(step.first + i, results);
             joined.add(results);
             bytes += results.size();
-            if (Clock::now() > end || bytes > most_bytes) break;
+            if (Clock::now() > end || bytes > most_answer_bytes) break;
         }
         return joined.finish();
     }

@@ -11,7 +11,7 @@
 namespace lightnet {
 namespace {
 
-constexpr Rgb grey(float value) { return {value, value, value}; }
+constexpr Rgb uncoloured(float value) { return {value, value, value}; }
 
 /// A direction, seen by whose x axis is turned by that cosine and sine.
 Vec3 along_groove(Vec2 groove, Vec3 w) {
@@ -152,7 +152,7 @@ void PrincipledBsdf::add_coat(Vec3 o, Vec3 i, const Chances& chances, BsdfValue&
         if (o.z <= 0 || i.z <= 0) return;
     }
     const auto [value, pdf, cosine] = reflection({coat_alpha, coat_alpha}, o, i);
-    sum.value += grey(principled_coat(coat, cosine) * value);
+    sum.value += uncoloured(principled_coat(coat, cosine) * value);
     sum.pdf += chances.coat * pdf;
 }
 
@@ -255,7 +255,7 @@ std::optional<BsdfSample> PrincipledBsdf::sample_coat(Vec3 o, Vec2 u, float chan
     const Vec3 own = frame.to_local(o);
     if (own.z <= 0) return {};
     if (smooth_coat()) {
-        auto result = mirror(own, grey(principled_coat(coat, own.z)), chance);
+        auto result = mirror(own, uncoloured(principled_coat(coat, own.z)), chance);
         if (!result) return {};
         result->incoming = frame.to_world(result->incoming);
         return result->incoming.z > 0 ? result : std::nullopt;
@@ -276,7 +276,7 @@ std::optional<BsdfSample> PrincipledBsdf::upright_sample(Vec3 o, float choice, V
         result = sample_coat(o, u, by.coat);
         if (!result || result->lobe == lobe::specular) return result;
     } else if (choice < by.coat) {
-        if (smooth_coat()) return mirror(o, grey(principled_coat(coat, o.z)), by.coat);
+        if (smooth_coat()) return mirror(o, uncoloured(principled_coat(coat, o.z)), by.coat);
         result->lobe = lobe::glossy;
         result->incoming = normalize(reflect(o, Microfacets{coat_alpha, coat_alpha}.sample_visible(o, u)));
         if (result->incoming.z <= 0) return {};

@@ -7,7 +7,7 @@
 namespace lightnet {
 namespace {
 
-float between(float a, float b, float t) { return a + (b - a) * t; }
+float lerp(float a, float b, float t) { return a + (b - a) * t; }
 
 /// The integral from 0 to t of a density that goes from a to b.
 float integral_to(float a, float b, float t) { return t * (a + 0.5f * (b - a) * t); }
@@ -49,7 +49,7 @@ float bilinear(std::span<const float> values, GridSize size, Vec2 place) {
     const auto [x, y, right, down] = cell_of(size, place);
     const float* upper = &values[std::size_t{y} * size.wide + x];
     const float* lower = upper + size.wide;
-    return between(between(upper[0], upper[1], right), between(lower[0], lower[1], right), down);
+    return lerp(lerp(upper[0], upper[1], right), lerp(lower[0], lower[1], right), down);
 }
 
 SquareDensities::SquareDensities(GridSize size, std::vector<float> tables) : size_(size), values_(std::move(tables)) {
@@ -99,18 +99,18 @@ float SquareDensities::row_total(std::uint32_t y, const TableBlend& blend) const
 /// At a node's column, between two rows.
 float SquareDensities::value(std::uint32_t x, std::uint32_t y, float down, const TableBlend& blend) const {
     const std::size_t at = std::size_t{y} * size_.wide + x;
-    return between(mixed(values_, size_.nodes(), at, blend), mixed(values_, size_.nodes(), at + size_.wide, blend),
+    return lerp(mixed(values_, size_.nodes(), at, blend), mixed(values_, size_.nodes(), at + size_.wide, blend),
                    down);
 }
 
 float SquareDensities::until(std::uint32_t x, std::uint32_t y, float down, const TableBlend& blend) const {
     const std::size_t at = std::size_t{y} * size_.wide + x;
-    return between(mixed(rows_, size_.nodes(), at, blend), mixed(rows_, size_.nodes(), at + size_.wide, blend), down);
+    return lerp(mixed(rows_, size_.nodes(), at, blend), mixed(rows_, size_.nodes(), at + size_.wide, blend), down);
 }
 
 float SquareDensities::density(Vec2 place, const TableBlend& blend) const {
     const auto [x, y, right, down] = cell_of(size_, place);
-    return between(value(x, y, down, blend), value(x + 1, y, down, blend), right);
+    return lerp(value(x, y, down, blend), value(x + 1, y, down, blend), right);
 }
 
 SquareDensities::Found SquareDensities::sample(Vec2 u, const TableBlend& blend) const {
@@ -119,13 +119,13 @@ SquareDensities::Found SquareDensities::sample(Vec2 u, const TableBlend& blend) 
     const float upper = row_total(y, blend), lower = row_total(y + 1, blend);
     const float down = where_integral_is((u.y - above(y)) * float(size_.high - 1), upper, lower);
 
-    const float wanted = u.x * between(upper, lower, down);
+    const float wanted = u.x * lerp(upper, lower, down);
     const auto before = [&](std::uint32_t x) { return until(x, y, down, blend); };
     const std::uint32_t x = cell_at(size_.wide - 1, wanted, before);
     const float left = value(x, y, down, blend), right = value(x + 1, y, down, blend);
     const float along = where_integral_is((wanted - before(x)) * float(size_.wide - 1), left, right);
     return {{(float(x) + along) / float(size_.wide - 1), (float(y) + down) / float(size_.high - 1)},
-            between(left, right, along)};
+            lerp(left, right, along)};
 }
 
 SquareDensities::Found SquareDensities::invert(Vec2 place, const TableBlend& blend) const {
@@ -133,10 +133,10 @@ SquareDensities::Found SquareDensities::invert(Vec2 place, const TableBlend& ble
     const float upper = row_total(y, blend), lower = row_total(y + 1, blend);
     const float left_value = value(x, y, down, blend), right_value = value(x + 1, y, down, blend);
     const float in_row = until(x, y, down, blend) + integral_to(left_value, right_value, right) / float(size_.wide - 1);
-    const float total = between(upper, lower, down);
+    const float total = lerp(upper, lower, down);
     const float above = mixed(columns_, size_.high, y, blend) + integral_to(upper, lower, down) / float(size_.high - 1);
     return {{total > 0 ? std::min(in_row / total, 1.0f) : 0, std::min(above, 1.0f)},
-            between(left_value, right_value, right)};
+            lerp(left_value, right_value, right)};
 }
 
 }  // namespace lightnet

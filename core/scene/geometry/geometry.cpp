@@ -51,14 +51,14 @@ void set(RTCRay& to, const Ray& ray) {
 }
 
 /// Embree's packets, in the width that an instruction set has: others are cut up and copied inside.
-struct Eight {
+struct PacketOf8 {
     static constexpr std::size_t lanes = 8;
     using Rays = RTCRay8;
     using RayHits = RTCRayHit8;
     static void intersect(const int* valid, RTCScene scene, RayHits& rays) { rtcIntersect8(valid, scene, &rays); }
     static void occluded(const int* valid, RTCScene scene, Rays& rays) { rtcOccluded8(valid, scene, &rays); }
 };
-struct Four {
+struct PacketOf4 {
     static constexpr std::size_t lanes = 4;
     using Rays = RTCRay4;
     using RayHits = RTCRayHit4;
@@ -352,7 +352,7 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>
         return;
     }
     count(rays.size());
-    tracer_->eight ? tracer_->meet<Eight>(rays, hits) : tracer_->meet<Four>(rays, hits);
+    tracer_->eight ? tracer_->meet<PacketOf8>(rays, hits) : tracer_->meet<PacketOf4>(rays, hits);
 }
 
 bool Geometry::occluded(const Ray& ray) const {
@@ -371,8 +371,8 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> hidde
         return;
     }
     count(rays.size());
-    tracer_->eight ? look_through<Eight>(tracer_->scene, tracer_->farthest, rays, hidden)
-                   : look_through<Four>(tracer_->scene, tracer_->farthest, rays, hidden);
+    tracer_->eight ? look_through<PacketOf8>(tracer_->scene, tracer_->farthest, rays, hidden)
+                   : look_through<PacketOf4>(tracer_->scene, tracer_->farthest, rays, hidden);
 }
 
 std::optional<Hit> Geometry::nearest(const PlacedSurfaces& surfaces, const SurfaceWish& wish) const {

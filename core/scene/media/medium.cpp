@@ -33,11 +33,11 @@ bool sound(const VolumeField& field) {
 Rgb mixed(Rgb a, Rgb b, float part) { return a * (1 - part) + b * part; }
 
 // The points on both sides of a place along one axis, and how far it is to the second.
-struct Between {
+struct BetweenVoxels {
     std::int64_t first;
     float part;
 };
-Between between(float place, std::uint32_t size) {
+BetweenVoxels between(float place, std::uint32_t size) {
     const float at = std::clamp(place, 0.0f, 1.0f) * float(size) - 0.5f, below = std::floor(at);
     return {static_cast<std::int64_t>(below), at - below};
 }

@@ -8,7 +8,7 @@ namespace lightnet {
 namespace {
 
 template <class T>
-std::size_t bytes_of(const std::vector<T>& values) {
+std::size_t room_of(const std::vector<T>& values) {
     return values.capacity() * sizeof(T);
 }
 
@@ -58,9 +58,9 @@ double Mesh::area() const {
 }
 
 std::size_t Mesh::memory() const {
-    std::size_t bytes = bytes_of(positions) + bytes_of(normals) + bytes_of(uvs) + bytes_of(colours) +
-                        bytes_of(triangles) + bytes_of(values.alphas) + bytes_of(tangents);
-    for (const auto& set : values.uvs) bytes += bytes_of(set);
+    std::size_t bytes = room_of(positions) + room_of(normals) + room_of(uvs) + room_of(colours) +
+                        room_of(triangles) + room_of(values.alphas) + room_of(tangents);
+    for (const auto& set : values.uvs) bytes += room_of(set);
     return bytes;
 }
 
