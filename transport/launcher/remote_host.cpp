@@ -19,8 +19,50 @@ constexpr auto ping_interval = std::chrono::milliseconds(400);
 constexpr int abandoned_for_sure = 3;  // handshakes: a line may be cut in the middle of one
 constexpr auto renewal_interval = std::chrono::seconds(1);
 constexpr auto shortest_lease = std::chrono::milliseconds(1500), longest_lease = std::chrono::milliseconds(10000);
-constexpr auto longest_piece = std::chrono::seconds(15);  // for a piece of a file to be taken
 constexpr auto wanted_so = "somebody who watched the run wanted it so";
+
+// Only a handshake that went so far that the two ends differ tells of keys: one that was begun and came to no end may
+// have met another program, or a cable that was pulled.
+std::string why_no_handshake(Handshake seen, const std::string& name, const std::optional<LineKeys>& keys,
+                             bool welcomed) {
+    const auto way = "the hosts file says which key it has, as in place \"" + name +
+                     "\" { key = \"…\" } (lightnetd --print-key shows it there)";
+    const std::string breaks_off = "each connection to it breaks off before a word is said";
+    if (seen == Handshake::abandoned && welcomed) return breaks_off + ": its line may be cut";
+    if (seen == Handshake::abandoned && !keys) return breaks_off + "; if it has a key, " + way;
+    if (!keys) return "it asks for keys: " + way;
+    if (seen == Handshake::refused)
+        return "it does not know our key (fingerprint " + keys->own.open.fingerprint() +
+               "); to be let in, append this line to its list (lightnetd --allow): " + keys->own.open.text() + " NAME";
+    return "it has another key than expected (fingerprint " + keys->theirs.fingerprint() +
+           "), or none; lightnetd --print-key shows it there";
+}
+
+Fields job_for(const std::string& name, const RunOffer& offer, const std::string& plan) {
+    return Fields{}
+        .set("job", offer.job)
+        .set("plan", plan)
+        .set("you", name)
+        .set("who", offer.who)
+        .set("members", offer.members)
+        .set("numbers", offer.numbers);
+}
+
+// What places did is for the report: one that can't be read is no reason to fail.
+Counters counters_of(const Fields& fields, const std::string& name, const ClockAhead& clock, Counters& counters) {
+    auto ended = Counters::from(fields.numbers);
+    if (fields.text("places").empty()) return ended;
+    try {
+        ended.places = place_records_from(fields.text("places"));
+        for (auto& record : ended.places) record.host = name;
+        ended.traces = place_traces_from(fields.text("traces"));
+        for (auto& trace : ended.traces)
+            trace.host = name, trace.clock_ahead = clock.ahead, trace.clock_error = clock.error;
+    } catch (const Error&) {
+        ++counters.broken_packets;
+    }
+    return ended;
+}
 
 }  // namespace
 
@@ -31,7 +73,8 @@ RemoteHost::RemoteHost(const RunOffer& offer, Counters& counters, std::string na
       counters_(counters),
       connection_(std::move(connection)),
       lease_(ping_interval, shortest_lease, longest_lease),
-      socket_([this](Frames& frames) { return connection_->send(frames, false); }) {}
+      socket_([this](Frames& frames) { return connection_->send(frames, false); }),
+      files_(offer_.blobs) {}
 
 bool RemoteHost::send(Type type, const Fields& fields) {
     // Before it takes part it need not know the number that members of the run are known by.
@@ -39,23 +82,6 @@ bool RemoteHost::send(Type type, const Fields& fields) {
         type == Type::begin || type == Type::end || (state_ != State::calling && state_ != State::greeted);
     auto frames = frames_of(packet::pack(type, member ? offer_.run : 0, fields));
     return line_.send(frames, now_, socket_);
-}
-
-// Only a handshake that went so far that the two ends differ tells of keys: one that was begun and came to no end may
-// have met another program, or a cable that was pulled.
-std::string RemoteHost::why_no_handshake(Handshake seen) const {
-    const auto keys = connection_->keys();
-    const auto way = "the hosts file says which key it has, as in place \"" + name_ +
-                     "\" { key = \"…\" } (lightnetd --print-key shows it there)";
-    const std::string breaks_off = "each connection to it breaks off before a word is said";
-    if (seen == Handshake::abandoned && welcomed_) return breaks_off + ": its line may be cut";
-    if (seen == Handshake::abandoned && !keys) return breaks_off + "; if it has a key, " + way;
-    if (!keys) return "it asks for keys: " + way;
-    if (seen == Handshake::refused)
-        return "it does not know our key (fingerprint " + keys->own.open.fingerprint() +
-               "); to be let in, append this line to its list (lightnetd --allow): " + keys->own.open.text() + " NAME";
-    return "it has another key than expected (fingerprint " + keys->theirs.fingerprint() +
-           "), or none; lightnetd --print-key shows it there";
 }
 
 void RemoteHost::look_at_handshake(Time now) {
@@ -67,18 +93,8 @@ void RemoteHost::look_at_handshake(Time now) {
     if (*seen == Handshake::abandoned && abandoned_ < abandoned_for_sure) return;
     // One that is closed on us by whom we expect by his key is what a wrong key looks like.
     unknown_ = *seen != Handshake::abandoned || (connection_->keys() && !welcomed_);
-    reason_ = why_no_handshake(*seen);
+    reason_ = why_no_handshake(*seen, name_, connection_->keys(), welcomed_);
     if (*seen != Handshake::abandoned) next_renewal_ = now + renewal_interval;  // ZeroMQ tries no more by itself
-}
-
-Fields RemoteHost::job_with(const std::string& plan) const {
-    return Fields{}
-        .set("job", offer_.job)
-        .set("plan", plan)
-        .set("you", name_)
-        .set("who", offer_.who)
-        .set("members", offer_.members)
-        .set("numbers", offer_.numbers);
 }
 
 // A connection never gets new keys, so it gets a successor: the host is begun with on that as if it had been lost, and
@@ -91,7 +107,7 @@ void RemoteHost::look_at_line(Time now, const ExpectedPlan& plan) {
     connection_->open_next();
     const auto expected = plan();
     if (!expected) return;
-    auto frames = frames_of(packet::pack(Type::begin, offer_.run, job_with(*expected)));
+    auto frames = frames_of(packet::pack(Type::begin, offer_.run, job_for(name_, offer_, *expected)));
     if (!connection_->send_on_next(frames)) return;
     line_.restart();
     ++renewed_lines_;
@@ -117,11 +133,12 @@ void RemoteHost::tick(Time now, const ExpectedPlan& plan) {
     } else if (now >= next_call_ && state_ == State::greeted) {
         const auto expected = plan();
         next_call_ = now + (expected ? std::chrono::milliseconds(busy_interval) : plan_interval);
-        if (expected && !line_.waiting()) send(Type::begin, job_with(*expected));
+        if (expected && !line_.waiting()) send(Type::begin, job_for(name_, offer_, *expected));
     }
     line_.go_on(now, socket_);
-    if (pieces_out() && now - piece_taken_ > longest_piece) return lose(now, "it takes no files");
-    if (!pieces_.empty()) send_blobs(now);
+    if (files_.stuck(now)) return lose(now, "it takes no files");
+    counters_.file_bytes +=
+        files_.send(offer_.run, now, [this](Frames& frames) { return connection_->send(frames, true); });
 }
 
 void RemoteHost::heartbeat(Time now) {
@@ -136,21 +153,11 @@ void RemoteHost::heartbeat(Time now) {
     send(Type::ping, fields);
 }
 
-// A flipped bit can make a message vanish without a trace.
-bool RemoteHost::lacks_something(const Fields& pong) {
-    const Between now{pong.number("line"), pong.number("taken") - pong.number("sent"), pong.number("told") - received_};
-    // What is under way on a line that has a successor is counted by one end only.
-    if (connection_->has_old(std::chrono::steady_clock::now())) between_.reset();
-    if (!between_ || between_->line != now.line) between_ = now;
-    return *between_ != now;
-}
-
 bool RemoteHost::take_out(const std::string& why) {
     if (state_ != State::calling) send_end();
     state_ = State::refused;
     reason_ = why;
-    pieces_.clear();
-    brought_.clear();
+    files_.clear();
     return true;
 }
 
@@ -165,9 +172,7 @@ void RemoteHost::lose(Time now, const std::string& why) {
     if (drained_) return void(take_out(wanted_so));
     state_ = State::calling;
     reason_ = why;
-    pieces_.clear();
     files_.restart();
-    brought_.clear();
     connect_anew({}, now);
     ports_.call(now);
 }
@@ -175,10 +180,9 @@ void RemoteHost::lose(Time now, const std::string& why) {
 // `port`: another one, of a daemon that serves several runs; none: as before.
 void RemoteHost::connect_anew(std::optional<std::uint16_t> port, Time now) {
     port ? connection_->call_at(*port) : connection_->renew();
-    between_.reset();
     line_.drop_waiting();
     line_.restart();
-    arrived_ = line_.counted();
+    counts_.restart(line_.counted());
     next_call_ = now;
 }
 
@@ -211,7 +215,7 @@ bool RemoteHost::receive(Time now, const Handlers& handlers) {
     if (frames->size() == 3) {
         hear(now);
         const auto passing = packet::peek_header(bytes_of((*frames)[1]));
-        received_ += passing && packet::is_counted(passing->type);
+        if (passing && packet::is_counted(passing->type)) counts_.received();
         handlers.relay(*this, *frames);
         return true;
     }
@@ -226,7 +230,7 @@ bool RemoteHost::receive(Time now, const Handlers& handlers) {
         return true;
     }
     hear(now);
-    if (packet::is_counted(header->type)) ++received_;
+    if (packet::is_counted(header->type)) counts_.received();
     if (header->type < Type::hello) {
         counters_.bytes += header_bytes.size() + body.size();
         if (auto message = packet::unpack(header_bytes, body)) handlers.work(std::move(*message));
@@ -263,22 +267,19 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             if (state_ != State::greeted) return;
             reason_.clear();
             ports_.taken();
-            queue_blobs(fields.text("hashes"));
-            state_ = pieces_.empty() ? State::building : State::sending;
+            files_.lacks_offered(fields.text("hashes"));
+            state_ = files_.waiting() ? State::sending : State::building;
             return;
         case Type::blob_taken:
             files_.piece_taken(now);
             ++carried_;
-            piece_taken_ = now;
-            if (state_ == State::sending && pieces_.empty() && !pieces_out()) state_ = State::building;
+            if (state_ == State::sending && !files_.waiting() && !files_.under_way()) state_ = State::building;
             return;
         case Type::lacks:
-            if (const auto hash = hash_from_hex(fields.text("hash")); hash && brought_.contains(*hash))
-                queue_blob(*hash);
+            if (const auto hash = hash_from_hex(fields.text("hash"))) files_.lacks(*hash);
             return;
         case Type::here:
-            if (const auto hash = hash_from_hex(fields.text("hash")); hash && brought_.contains(*hash))
-                brought_[*hash] = {nullptr, true};
+            if (const auto hash = hash_from_hex(fields.text("hash"))) files_.has(*hash);
             return;
         case Type::ready:
             if (state_ == State::building || state_ == State::sending) state_ = State::ready;
@@ -294,19 +295,16 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             return;
         case Type::pong:
             if (state_ == State::calling || state_ == State::refused) return;
-            arrived_ = fields.number("sent");
-            clock_.compare(fields.number("asked_at"), fields.number("clock"), steady_nanoseconds());
+            counts_.arrived(fields.number("sent"));
+            news_.clock.compare(fields.number("asked_at"), fields.number("clock"), steady_nanoseconds());
             if (fields.number("process") != process_)
                 lose(now, "it was started anew");
             else if (state_ != State::greeted && fields.number("run") != offer_.run)
                 lose(now, "it gave the run up");
-            else if (fields.number("run") == offer_.run && lacks_something(fields))
+            else if (fields.number("run") == offer_.run && counts_.lacks_something(fields, connection_->has_old(now)))
                 lose(now, "a message to or from it was lost");
-            progress_ = fields.number("progress");
-            pulse_ = fields.number("pulse");
             peak_memory_ = std::max(peak_memory_, fields.number("peak_memory"));
-            doing_ = doings_from(fields.text("doing"));
-            if (auto figures = figures_from(fields.text("figures"))) figures_ = std::move(*figures);
+            news_.take(fields);
             return;
         case Type::leaving:
             if (state_ == State::ready) {
@@ -316,7 +314,8 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
                 lose(now, "it was told to stop");
             return;
         case Type::ended: {
-            take_end(fields);
+            peak_memory_ = std::max(peak_memory_, fields.number("peak_memory"));
+            ended_ = counters_of(fields, name_, news_.clock, counters_);
             if (state_ == State::leaving && drained_)
                 take_out(wanted_so);
             else if (state_ == State::leaving) {
@@ -327,22 +326,6 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
         }
         default:
             return;
-    }
-}
-
-// What places did is for the report: one that can't be read is no reason to fail.
-void RemoteHost::take_end(const Fields& fields) {
-    peak_memory_ = std::max(peak_memory_, fields.number("peak_memory"));
-    ended_ = Counters::from(fields.numbers);
-    if (fields.text("places").empty()) return;
-    try {
-        ended_->places = place_records_from(fields.text("places"));
-        for (auto& record : ended_->places) record.host = name_;
-        ended_->traces = place_traces_from(fields.text("traces"));
-        for (auto& trace : ended_->traces)
-            trace.host = name_, trace.clock_ahead = clock_.ahead, trace.clock_error = clock_.error;
-    } catch (const Error&) {
-        ++counters_.broken_packets;
     }
 }
 
@@ -371,7 +354,7 @@ bool RemoteHost::send(Message& message, std::uint32_t place) {
 
 bool RemoteHost::forward(Frames& frames) {
     const bool sent = line_.send(frames, now_, socket_);
-    if (!sent) counters_.refused_sends += may_be_full(line_.counted() - arrived_);
+    if (!sent) counters_.refused_sends += may_be_full(counts_.under_way(line_.counted()));
     return sent;
 }
 
@@ -384,6 +367,13 @@ void RemoteHost::request_resend() {
 void RemoteHost::tell_members() {
     const bool begun = state_ != State::calling && state_ != State::greeted && state_ != State::refused;
     if (begun) send(Type::members, Fields{}.set("members", offer_.members).set("numbers", offer_.numbers));
+}
+
+bool RemoteHost::bring(const Hash& name, const Bytes& bytes) {
+    const bool is_new = files_.bring(name, bytes);
+    if (is_new && !send(Type::expect, Fields{}.set("hash", to_hex(name)).set("size", bytes->size())))
+        files_.forget(name);
+    return !is_new && files_.is_there(name);
 }
 
 void RemoteHost::use(const WrittenPlan& plan) { send(Type::plan, Fields{}.set("plan", plan.text)); }
