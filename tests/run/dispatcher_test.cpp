@@ -126,6 +126,16 @@ TEST_F(DispatcherTest, KeepsWhatIsAskedByALaterPlanUntilItIsTold) {
     EXPECT_EQ(carrier.asked[0].second.edition, 2u);
 }
 
+TEST_F(DispatcherTest, KeepsNoMoreOfALaterPlanThanHostsMayAsk) {
+    AsksOfLaterPlans later;
+    for (std::size_t i = 0; i <= AsksOfLaterPlans::most; ++i) {
+        Message ask;
+        ask.edition = 2;
+        EXPECT_TRUE(later.keep(ask, 1)) << "it goes no further, kept or not";
+    }
+    EXPECT_EQ(later.due(2).size(), AsksOfLaterPlans::most);
+}
+
 TEST_F(DispatcherTest, TellsHowBusyItsPlacesAreTogether) {
     tell(plan());
     ask(1, 5), ask(2, 5), ask(3, 20);

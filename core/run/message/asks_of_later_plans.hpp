@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -16,10 +18,13 @@ namespace lightnet {
 /// later one. The launcher brings each plan to all, so nothing waits for long. One thread's.
 class AsksOfLaterPlans {
 public:
+    /// More than wait for one plan, of hosts that keep to their credit: what others send beyond is dropped.
+    static constexpr std::size_t most = 1 << 14;
+
     /// True: it has been kept, as its plan is none of those up to `edition`.
     bool keep(Message& ask, std::uint32_t edition) {
         if (ask.edition <= edition) return false;
-        kept_.push_back(std::move(ask));
+        if (kept_.size() < most) kept_.push_back(std::move(ask));
         return true;
     }
     /// Those that need not wait any more, as they came.
