@@ -99,8 +99,7 @@ float SquareDensities::row_total(std::uint32_t y, const TableBlend& blend) const
 /// At a node's column, between two rows.
 float SquareDensities::value(std::uint32_t x, std::uint32_t y, float down, const TableBlend& blend) const {
     const std::size_t at = std::size_t{y} * size_.wide + x;
-    return lerp(mixed(values_, size_.nodes(), at, blend), mixed(values_, size_.nodes(), at + size_.wide, blend),
-                   down);
+    return lerp(mixed(values_, size_.nodes(), at, blend), mixed(values_, size_.nodes(), at + size_.wide, blend), down);
 }
 
 float SquareDensities::until(std::uint32_t x, std::uint32_t y, float down, const TableBlend& blend) const {

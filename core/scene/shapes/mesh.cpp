@@ -58,8 +58,8 @@ double Mesh::area() const {
 }
 
 std::size_t Mesh::memory() const {
-    std::size_t bytes = room_of(positions) + room_of(normals) + room_of(uvs) + room_of(colours) +
-                        room_of(triangles) + room_of(values.alphas) + room_of(tangents);
+    std::size_t bytes = room_of(positions) + room_of(normals) + room_of(uvs) + room_of(colours) + room_of(triangles) +
+                        room_of(values.alphas) + room_of(tangents);
     for (const auto& set : values.uvs) bytes += room_of(set);
     return bytes;
 }
