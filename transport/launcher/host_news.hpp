@@ -1,4 +1,4 @@
-// What a host says of itself with its answers to heartbeats.
+// News that a host gives of itself with its answers to heartbeats.
 #pragma once
 
 #include <cstdint>
