@@ -62,7 +62,7 @@ private:
             node.entries.push_back(
                 Value{NodeRef{"n" + std::to_string(others - 1 - below(std::min<std::size_t>(others, 3)))}});
         for (const auto& param : kind.params) add_param(node, param);
-        if (kind.name == "Select") node.params["material"] = Value{"white"};
+        if (kind.name == "Select") node.params["material"] = Value{"white"}, node.params["hair"] = Value{"all"};
         graph_.nodes.push_back(std::move(node));
     }
 
