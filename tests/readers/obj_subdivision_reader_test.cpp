@@ -144,6 +144,9 @@ TEST(ObjCage, TellsWhatIsWrong) {
     EXPECT_THAT(warnings_of(read_as("a.obj", cube + "t crease 2/1/0 0 6 2\n")), HasSubstr("edges that no face has"));
     EXPECT_THAT(warnings_of(read_as("a.obj", cube + "t smoothtriangles 0/0/1 smooth\n")),
                 HasSubstr("tag 'smoothtriangles'"));
+    const auto strange = read_as("a.obj", cube + "t something else\n");
+    EXPECT_THAT(warnings_of(strange), HasSubstr("tag 'something' is left out"));
+    EXPECT_THAT(mesh_of(strange).triangles, SizeIs(12)) << "it says nothing of faces";
     EXPECT_THAT(error_of([] { read_as("a.obj", cube + "t crease 2/1/0 0\n"); }),
                 HasSubstr("as many numbers as it says"));
     EXPECT_THAT(warnings_of(cage(cube + "f 1 2 1\n")), HasSubstr("name a vertex twice"));

@@ -131,6 +131,10 @@ bool Cages::numbers_of(Lines& lines, std::vector<std::size_t>& whole, std::vecto
 
 void Cages::tag(Lines& lines, Report& report) {
     const std::string name(lines.word());
+    const auto leave_out = [&] {
+        report.warn(lines.where(), fmt::format("tag '{}' is left out: the surface shows nothing of it", name));
+    };
+    if (std::ranges::find(known_tags, name) == known_tags.end()) return leave_out();
     std::vector<std::size_t> whole;
     std::vector<float> sharp;
     if (!numbers_of(lines, whole, sharp, report))
@@ -151,7 +155,7 @@ void Cages::tag(Lines& lines, Report& report) {
     else if (name == "creasemethod")
         rules_.chaikin = lines.word() == "chaikin";
     else
-        report.warn(lines.where(), fmt::format("tag '{}' is left out: the surface shows nothing of it", name));
+        leave_out();
 }
 
 void Cages::add_creases(const std::map<std::uint32_t, std::uint32_t>& vertices, Cage& cage) {

@@ -1,11 +1,13 @@
 // Objects of OBJ files that are subdivided.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/readers/common/report.hpp"
@@ -21,6 +23,10 @@ struct Corner {
     std::uint32_t position = none, uv = none, normal = none;
     friend bool operator==(const Corner&, const Corner&) = default;
 };
+
+/// Tags that mean something here. A file with one of them is a cage.
+inline constexpr std::array<std::string_view, 6> known_tags{
+    "crease", "corner", "hole", "interpolateboundary", "facevaryinginterpolateboundary", "creasemethod"};
 
 /// A face of three corners or more, and what holds where it stands.
 struct CageFace {

@@ -127,10 +127,10 @@ private:
     bool names_later_ = false;
 };
 
-/// Does a line begin with a tag of subdivision?
+/// Does a line begin with a known tag of subdivision?
 bool has_tags(std::span<const std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    return text.find("\nt ") != text.npos;
+    return std::ranges::any_of(known_tags, [&](auto tag) { return text.find("\nt " + std::string(tag)) != text.npos; });
 }
 
 class ModelReader {

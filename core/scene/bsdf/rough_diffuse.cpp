@@ -9,12 +9,12 @@ namespace lightnet {
 namespace {
 
 // Portsmouth, Kutz and Hill 2025, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", sections 2 and 3.
-constexpr float direct_term = 0.5f - 2 * inverse_pi / 3, bounced_term = 2.0f / 3 - 28 * inverse_pi / 15;
+constexpr float constant1 = 0.5f - 2 * inverse_pi / 3, constant2 = 2.0f / 3 - 28 * inverse_pi / 15;
 
 /// Share of the light from a direction that white facets reflect by scattering it once.
 float once(float cosine, float roughness) {
     cosine = std::clamp(cosine, 1e-4f, 1.0f);
-    const float a = 1 / (1 + direct_term * roughness);
+    const float a = 1 / (1 + constant1 * roughness);
     const float sine = std::sqrt(1 - cosine * cosine);
     const float g =
         sine * (std::acos(cosine) - sine * cosine) + 2.0f / 3 * (sine / cosine * (1 - sine * sine * sine) - sine);
@@ -33,7 +33,7 @@ BsdfValue RoughDiffuseBsdf::evaluate(Vec3 outgoing, Vec3 incoming, std::uint8_t 
     if (!(lobes & lobe::diffuse) || incoming.z <= 0) return {};
     const float s = outgoing.x * incoming.x + outgoing.y * incoming.y;
     const float slope = s > 0 ? s / std::max(outgoing.z, incoming.z) : s;
-    const float a = 1 / (1 + direct_term * roughness), mean = a * (1 + bounced_term * roughness);
+    const float a = 1 / (1 + constant1 * roughness), mean = a * (1 + constant2 * roughness);
     const float single = a * (1 + roughness * slope);
     const float lost =
         std::max(0.0f, 1 - once(outgoing.z, roughness)) * std::max(0.0f, 1 - once(incoming.z, roughness));
