@@ -12,7 +12,8 @@
 namespace lightnet {
 
 /// Kinds of scattering, as bits: which lobes of a BSDF a question is about, or a sample came from.
-/// A coated surface is specular and diffuse at once, so one surface may be asked about twice.
+/// A coated surface is specular and diffuse at once, so one surface may be asked about twice. Questions may have other
+/// bits besides: ways of light through hair that are left out.
 namespace lobe {
 inline constexpr std::uint8_t diffuse = 1;   // broad
 inline constexpr std::uint8_t glossy = 2;    // rough, but peaked
