@@ -1,11 +1,32 @@
-// Colours that a pixel of a film has.
+#include "core/film/film_format.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
+#include "core/base/error.hpp"
 #include "core/film/clean_layers.hpp"
-#include "core/film/film.hpp"
 
 namespace lightnet {
+
+void FilmFormat::expect_sound() const {
+    if (!width || !height) throw Error("film", "a picture needs at least one pixel");
+    if (!samples) throw Error("film", "a picture needs at least one sample per pixel");
+    if (layers.empty()) throw Error("film", "a picture needs at least one layer");
+    std::set<std::string> names(layers.begin(), layers.end());
+    names.insert(shown.begin(), shown.end());
+    if (names.size() != layers.size() + shown.size()) throw Error("film", "two layers have the same name");
+    for (const auto& [matte, count] : ids)
+        for (std::uint32_t level = 0; 2 * level < count; ++level)
+            if (const auto name = fmt::format("{}{:02}", matte, level); !names.insert(name).second)
+                throw Error("film", "a layer is called '" + name + "', as one of the matte '" + matte + "'");
+    const auto lies_within = [](std::uint32_t from, std::uint32_t size, std::uint32_t side) {
+        return size > 0 && from < side && size <= side - from;
+    };
+    if (crop && !(lies_within(crop->x, crop->width, width) && lies_within(crop->y, crop->height, height)))
+        throw Error("film", "the crop is not inside of the picture");
+}
 
 std::size_t FilmFormat::first_colour(std::size_t beside) const {
     std::size_t colour = layers.size();

@@ -15,33 +15,29 @@ std::uint32_t round_beyond(std::uint32_t blocks, const FilmFormat& format) {
 
 bool Film::round_is_over() const {
     if (!format_.in_rounds() || complete()) return false;
-    std::uint64_t there = 0;
-    for (const auto& [area, rectangle] : rectangles_) {
-        if (!rectangle.done && rectangle.next_block < round_) return false;
-        there += std::uint64_t{std::get<2>(area)} * std::get<3>(area);
-    }
-    return there == window_.pixels();
+    return parts_.everywhere() && std::all_of(parts_.begin(), parts_.end(), [this](const auto& place) {
+               return place.second.done || place.second.next_block >= round_;
+           });
 }
 
 std::vector<Tile> Film::end_round(std::span<const double> noise) {
-    const Window seen = format_.crop.value_or(window_);
-    for (auto& [area, rectangle] : rectangles_) {
-        if (rectangle.done) continue;
-        const auto& [x, y, width, height] = area;
+    const Window seen = format_.crop.value_or(tiling_.window());
+    for (auto& [area, part] : parts_) {
+        if (part.done) continue;
         double sum = 0, pixels = 0;  // of those that the picture has
-        for (std::uint32_t row = std::max(y, seen.y); row < std::min(y + height, seen.y + seen.height); ++row)
-            for (std::uint32_t column = std::max(x, seen.x); column < std::min(x + width, seen.x + seen.width);
-                 ++column) {
-                sum += noise[std::size_t{row - seen.y} * seen.width + column - seen.x];
+        for (std::uint32_t y = std::max(area.y, seen.y); y < std::min(area.y + area.height, seen.y + seen.height); ++y)
+            for (std::uint32_t x = std::max(area.x, seen.x); x < std::min(area.x + area.width, seen.x + seen.width);
+                 ++x) {
+                sum += noise[std::size_t{y - seen.y} * seen.width + x - seen.x];
                 ++pixels;
             }
-        rectangle.ended = sum <= double(format_.refinement.noise) * pixels;
-        end_if_enough(rectangle, {x, y, width, height});
+        part.ended = sum <= double(format_.refinement.noise) * pixels;
+        end_if_enough(part, area);
     }
     const std::uint32_t ended = std::exchange(round_, round_beyond(round_, format_));
     constexpr std::uint32_t at_once = 4 * cell_size;  // pixels along a side
     std::vector<Tile> wanted;
-    for (Tile part : tiles_of(window_, at_once, samples_per_block)) {
+    for (Tile part : tiles_of(tiling_.window(), at_once, samples_per_block)) {
         part.first_sample = (ended - 1) * samples_per_block;
         for (const Tile& next : more(part)) wanted.push_back(next);
     }

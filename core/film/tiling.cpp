@@ -1,8 +1,9 @@
+// Tiles of a picture, in the order in which they are handed out.
 #include <algorithm>
 #include <bit>
 #include <utility>
 
-#include "core/film/film.hpp"
+#include "core/film/film_format.hpp"
 
 namespace lightnet {
 namespace {
