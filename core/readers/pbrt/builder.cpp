@@ -39,44 +39,53 @@ Builder::Builder(const Sources& sources, std::optional<double> seconds)
       materials_(sources_, scene_, {"", DiffuseMaterial{textures_.constant({0.5f, 0.5f, 0.5f}), 0, std::nullopt}}),
       waiting_(sources_, scene_, materials_, media_),
       blocks_(sources_),
+      objects_(sources_, scene_, blocks_),
+      eye_(sources_.version),
       transforms_(sources_.report),
       seconds_(seconds) {
     scene_.film.width = sources_.older() ? 640 : 1280, scene_.film.height = sources_.older() ? 480 : 720;
 }
 
 const std::map<std::string, Builder::Handler>& Builder::handlers() {
-    static const std::map<std::string, Handler> table{{"Accelerator", &Builder::ignored},
-                                                      {"AreaLightSource", &Builder::area_light},
-                                                      {"Attribute", &Builder::attribute},
-                                                      {"AttributeBegin", &Builder::attribute_begin},
-                                                      {"AttributeEnd", &Builder::attribute_end},
-                                                      {"Camera", &Builder::camera},
-                                                      {"ColorSpace", &Builder::color_space},
-                                                      {"Film", &Builder::film},
-                                                      {"Integrator", &Builder::ignored},
-                                                      {"LightSource", &Builder::light},
-                                                      {"MakeNamedMaterial", &Builder::make_named_material},
-                                                      {"MakeNamedMedium", &Builder::make_named_medium},
-                                                      {"Material", &Builder::material},
-                                                      {"MediumInterface", &Builder::medium_interface},
-                                                      {"NamedMaterial", &Builder::named_material},
-                                                      {"ObjectBegin", &Builder::object_begin},
-                                                      {"ObjectEnd", &Builder::object_end},
-                                                      {"ObjectInstance", &Builder::object_instance},
-                                                      {"Option", &Builder::option},
-                                                      {"PixelFilter", &Builder::ignored},
-                                                      {"Renderer", &Builder::older_business},
-                                                      {"ReverseOrientation", &Builder::reverse_orientation},
-                                                      {"Sampler", &Builder::ignored},
-                                                      {"Shape", &Builder::shape},
-                                                      {"SurfaceIntegrator", &Builder::older_business},
-                                                      {"Texture", &Builder::texture},
-                                                      {"TransformBegin", &Builder::transform_begin},
-                                                      {"TransformEnd", &Builder::transform_end},
-                                                      {"Volume", &Builder::volume},
-                                                      {"VolumeIntegrator", &Builder::older_business},
-                                                      {"WorldBegin", &Builder::world_begin},
-                                                      {"WorldEnd", &Builder::world_end}};
+    const Handler ignored = [](Builder&, Statement&) {};  // how images are sampled is the graph's business
+    static const std::map<std::string, Handler> table{
+        {"Accelerator", ignored},
+        {"AreaLightSource", call<&Builder::area_light>},
+        {"Attribute", call<&Builder::attribute>},
+        {"AttributeBegin", [](Builder& b, Statement& s) { b.blocks_.begin(Blocks::Kind::attribute, s.where); }},
+        {"AttributeEnd",
+         [](Builder& b, Statement& s) { b.blocks_.end(Blocks::Kind::attribute, "AttributeBegin", s.where); }},
+        {"Camera", call<&Builder::camera>},
+        {"ColorSpace", call<&Builder::color_space>},
+        {"Film", [](Builder& b, Statement& s) { b.eye_.film(s, b.scene_); }},
+        {"Integrator", ignored},
+        {"LightSource", call<&Builder::light>},
+        {"MakeNamedMaterial", call<&Builder::make_named_material>},
+        {"MakeNamedMedium", call<&Builder::make_named_medium>},
+        {"Material", call<&Builder::material>},
+        {"MediumInterface", call<&Builder::medium_interface>},
+        {"NamedMaterial", call<&Builder::named_material>},
+        {"ObjectBegin", [](Builder& b, Statement& s) { b.objects_.begin(s); }},
+        {"ObjectEnd", [](Builder& b, Statement& s) { b.objects_.end(s); }},
+        {"ObjectInstance", [](Builder& b, Statement& s) { b.objects_.place(s, b.to_world(), b.shapes_.budget()); }},
+        {"Option", call<&Builder::option>},
+        {"PixelFilter", ignored},
+        {"Renderer", call<&Builder::older_business>},
+        {"ReverseOrientation", [](Builder& b, Statement&) { b.state().reversed = !b.state().reversed; }},
+        {"Sampler", ignored},
+        {"Shape", call<&Builder::shape>},
+        {"SurfaceIntegrator", call<&Builder::older_business>},
+        {"Texture", call<&Builder::texture>},
+        {"TransformBegin", [](Builder& b, Statement& s) { b.blocks_.begin(Blocks::Kind::transform, s.where); }},
+        {"TransformEnd", [](Builder& b, Statement& s) { b.blocks_.end_transform(s.where); }},
+        {"Volume", call<&Builder::volume>},
+        {"VolumeIntegrator", call<&Builder::older_business>},
+        {"WorldBegin",
+         [](Builder& b, Statement&) {
+             b.in_world_ = true;
+             b.transforms_.begin_world(b.state().to_world);
+         }},
+        {"WorldEnd", call<&Builder::world_end>}};
     return table;
 }
 
@@ -94,13 +103,13 @@ void Builder::execute(Statement& statement) {
     else if (CurrentTransform::knows(statement.directive))
         transforms_.execute(statement, state().to_world);
     else
-        (this->*handlers().at(statement.directive))(statement);
+        handlers().at(statement.directive)(*this, statement);
 }
 
 void Builder::enter() { blocks_.begin(Blocks::Kind::import, {}); }
 
 void Builder::leave() {
-    if (blocks_.end_import()) open_object_ = std::nullopt;
+    if (blocks_.end_import()) objects_.abandon();
 }
 
 void Builder::finish() {
@@ -111,22 +120,10 @@ void Builder::finish() {
     shapes_.displace(waiting_.displaced(), scene_.textures);
     if (shapes_.budget().exceeded())
         sources_.report.error({sources_.main, 0}, "the scene has more than 2^27 vertices and triangles");
-    waiting_.finish(around_, around_where_);
-    finish_film();
+    waiting_.finish(eye_.medium(), eye_.where());
+    eye_.finish(scene_);
     pictures_.warn_below_black(scene_);
     scene_.warnings = sources_.report.warnings();
-}
-
-void Builder::finish_film() {
-    scene_.film.scale *= exposure_;
-    take_scale_out(scene_.camera);
-    if (white_ == Rgb{1, 1, 1}) return;
-    // light is linear, so a white balance per channel may as well be done where the light comes from
-    const Rgb gain{1 / std::max(white_.r, 1e-3f), 1 / std::max(white_.g, 1e-3f), 1 / std::max(white_.b, 1e-3f)};
-    for (auto& shape : scene_.shapes)
-        if (shape.emission) shape.emission->radiance *= gain;
-    for (auto& environment : scene_.environments) environment.radiance *= gain;
-    for (auto& light : scene_.lights) std::visit([&](auto& one) { one.strength() *= gain; }, light);
 }
 
 Matrix Builder::to_world() { return standing(state().to_world.transform); }
@@ -135,11 +132,6 @@ Matrix Builder::standing(const MovingTransform& transform) {
     if (transform.moves() && scene_.animations.empty()) scene_.animations.push_back({"", transforms_.end_seconds()});
     return transforms_.at(transform, seconds_.value_or(scene_.shutter ? scene_.shutter->open : 0));
 }
-
-void Builder::attribute_begin(Statement& s) { blocks_.begin(Blocks::Kind::attribute, s.where); }
-void Builder::attribute_end(Statement& s) { blocks_.end(Blocks::Kind::attribute, "AttributeBegin", s.where); }
-void Builder::transform_begin(Statement& s) { blocks_.begin(Blocks::Kind::transform, s.where); }
-void Builder::transform_end(Statement& s) { blocks_.end_transform(s.where); }
 
 void Builder::attribute(Statement& s) {
     static const std::vector<std::string> known{"light", "material", "medium", "shape", "texture"};
@@ -155,13 +147,6 @@ void Builder::attribute(Statement& s) {
         std::erase_if(defaults, [&](const auto& p) { return p->name == parameter->name; });
         defaults.push_back(parameter);
     }
-}
-
-void Builder::reverse_orientation(Statement&) { state().reversed = !state().reversed; }
-
-void Builder::world_begin(Statement&) {
-    in_world_ = true;
-    transforms_.begin_world(state().to_world);
 }
 
 void Builder::world_end(Statement& s) {
@@ -186,9 +171,6 @@ void Builder::option(Statement& s) {
     if (s.parameters.boolean("forcediffuse", false))
         s.parameters.warn("'forcediffuse' is left out: surfaces keep their materials");
 }
-
-// how images are sampled is the graph's business
-void Builder::ignored(Statement&) {}
 
 void Builder::make_named_medium(Statement& s) {
     if (!media_.define(s.names[0], to_world(), s.parameters))
@@ -216,25 +198,14 @@ void Builder::camera(Statement& s) {
         sources_.report.error(s.where, "the camera's transform is singular");
         return;
     }
-    const Shot shot = make_camera(s.names[0], s.parameters, sources_.version);
-    s.parameters.warn_unused();
+    const Shot shot = eye_.camera(s, state().outside);
     scene_.shutter = shot.shutter;
     const MovingTransform to_world{*from_start, *from_end};
     scene_.camera = shot.camera;
     scene_.camera.to_world = standing(to_world);
     scene_.camera.where = s.where;
     scene_.camera_given = true;
-    around_ = state().outside;
-    around_where_ = s.where;
-    exposure_ = shot.exposure;
     transforms_.define("camera", to_world);
-}
-
-void Builder::film(Statement& s) {
-    const FilmShot shot = make_film(s.names[0], s.parameters, sources_.version);
-    scene_.film = shot.film;
-    white_ = shot.white;
-    s.parameters.warn_unused();
 }
 
 }  // namespace lightnet::pbrt

@@ -11,9 +11,11 @@
 #include "core/readers/common/measurements.hpp"
 #include "core/readers/pbrt/camera.hpp"
 #include "core/readers/pbrt/current_transform.hpp"
+#include "core/readers/pbrt/eye.hpp"
 #include "core/readers/pbrt/graphics_state.hpp"
 #include "core/readers/pbrt/material_uses.hpp"
 #include "core/readers/pbrt/media.hpp"
+#include "core/readers/pbrt/objects.hpp"
 #include "core/readers/pbrt/pictures.hpp"
 #include "core/readers/pbrt/shapes.hpp"
 #include "core/readers/pbrt/sources.hpp"
@@ -42,7 +44,11 @@ public:
     SceneData take() { return std::move(scene_); }
 
 private:
-    using Handler = void (Builder::*)(Statement&);
+    using Handler = void (*)(Builder&, Statement&);
+    template <void (Builder::*handle)(Statement&)>
+    static void call(Builder& builder, Statement& statement) {
+        (builder.*handle)(statement);
+    }
     static const std::map<std::string, Handler>& handlers();
 
     /// What holds for the next statement.
@@ -51,24 +57,16 @@ private:
     Matrix to_world();
     Matrix standing(const MovingTransform& transform);
 
-    void attribute_begin(Statement&);
-    void attribute_end(Statement&);
-    void transform_begin(Statement&);
-    void transform_end(Statement&);
     void attribute(Statement&);
-    void reverse_orientation(Statement&);
-    void world_begin(Statement&);
     void world_end(Statement&);
     void older_business(Statement&);
     void volume(Statement&);
     void option(Statement&);
-    void ignored(Statement&);
     void make_named_medium(Statement&);
     void medium_interface(Statement&);
     void color_space(Statement&);
 
     void camera(Statement&);
-    void film(Statement&);
 
     void material(Statement&);
     void make_named_material(Statement&);
@@ -79,12 +77,7 @@ private:
     void area_light(Statement&);
     void light(Statement&);
     void shape(Statement&);
-    void object_begin(Statement&);
-    void object_end(Statement&);
-    void object_instance(Statement&);
     std::optional<TextureId> alpha_of(Parameters& parameters);
-
-    void finish_film();
 
     Sources sources_;
     SceneData scene_;
@@ -97,15 +90,11 @@ private:
     MaterialUses materials_;
     WaitingShapes waiting_;
     Blocks blocks_;
+    Objects objects_;
+    Eye eye_;
     bool in_world_ = false, ended_ = false;
-    float exposure_ = 1;
-    Rgb white_{1, 1, 1};
     CurrentTransform transforms_;
     std::optional<double> seconds_;
-    std::string around_;  // name of the camera's medium
-    SourceLine around_where_;
-    std::map<std::string, std::uint32_t> objects_;
-    std::optional<std::uint32_t> open_object_;
 };
 
 }  // namespace lightnet::pbrt

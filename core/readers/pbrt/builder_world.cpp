@@ -105,7 +105,7 @@ void Builder::shape(Statement& s) {
     shape.turned = placement.flips();
     s.parameters.warn_unused();
     if (!shape.made) return;
-    if (state().lamp && open_object_)
+    if (state().lamp && objects_.open())
         s.parameters.warn("lamps inside of an object don't shine (as in pbrt)");
     else
         shape.lamp = state().lamp;
@@ -113,7 +113,7 @@ void Builder::shape(Statement& s) {
     shape.material = state().material;
     shape.inside = state().inside;
     shape.outside = state().outside;
-    shape.object = open_object_;
+    shape.object = objects_.open();
     shape.owner = s.parameters.owner();
     shape.name = stem_of(s.names[0] == "plymesh" ? s.parameters.file("filename") : "");
     shape.where = s.where;
@@ -125,45 +125,6 @@ std::optional<TextureId> Builder::alpha_of(Parameters& parameters) {
     const auto alpha = textures_.maybe_number(parameters, "alpha");
     const auto everywhere = alpha ? textures_.constant_value(*alpha) : std::nullopt;
     return everywhere && everywhere->r >= 1 ? std::nullopt : alpha;
-}
-
-void Builder::object_begin(Statement& s) {
-    if (open_object_) {
-        sources_.report.error(s.where, "ObjectBegin inside of another object");
-        return;
-    }
-    blocks_.begin(Blocks::Kind::object, s.where);
-    const auto [place, fresh] = objects_.try_emplace(s.names[0], static_cast<std::uint32_t>(scene_.objects.size()));
-    if (fresh)
-        scene_.objects.push_back({s.names[0], {}});
-    else
-        sources_.report.error(s.where, fmt::format("there is an object '{}' already", s.names[0]));
-    open_object_ = place->second;
-}
-
-void Builder::object_end(Statement& s) {
-    if (blocks_.end(Blocks::Kind::object, "ObjectBegin", s.where)) open_object_ = std::nullopt;
-}
-
-void Builder::object_instance(Statement& s) {
-    constexpr std::uint64_t size = 16;  // in memory, beside a vertex's
-    const auto found = objects_.find(s.names[0]);
-    const Matrix placed = to_world();
-    const bool singular = !inverse(placed);
-    if (singular && found != objects_.end() && !open_object_)
-        return sources_.report.warn(s.where, "an instance stands under a singular transform, and is left out");
-    const std::string fault = singular ? "" : lightnet::Placement::fault(placed);
-    if (found != objects_.end() && !open_object_ && fault.empty()) {
-        shapes_.budget().take(size);
-        if (!shapes_.budget().exceeded()) scene_.instances.push_back({found->second, placed});
-        return;
-    }
-    std::vector<std::string> known;
-    for (const auto& [name, object] : objects_) known.push_back(name);
-    sources_.report.error(s.where, open_object_              ? "ObjectInstance inside of an object"
-                                   : found == objects_.end() ? fmt::format("there is no object '{}'{}", s.names[0],
-                                                                           did_you_mean(s.names[0], known))
-                                                             : fault);
 }
 
 }  // namespace lightnet::pbrt
