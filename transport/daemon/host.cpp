@@ -61,25 +61,19 @@ HostDoor::Options Host::Service::door_options() const {
     return made;
 }
 
-// Strangers can have much said.
-Host::Options Host::Service::bounded(Options wanted) {
+Host::Options Host::Service::ready(Options wanted) const {
     if (!wanted.transport) wanted.transport = zmq_hosts(context);
-    wanted.log = [this, tell = std::move(wanted.log)](const LogEntry& entry) {
-        const auto kind = kind_of_line(entry.text);
-        auto& bounds = kind == "refuses a" || kind == "turns away" ? refusals : log_bounds;
-        if (bounds.may_be_said(kind, Clock::now())) tell(entry);
-    };
+    wanted.log = [bounded = log](const LogEntry& entry) { (*bounded)(entry); };
     return wanted;
 }
 
 void Host::Service::tell_left_out(Time now) {
-    for (auto* bounds : {&log_bounds, &refusals})
-        for (const auto& [kind, count] : bounds->left_out(now))
-            options.log({LogLevel::warning, "… and " + std::to_string(count) + " more lines like '" + kind + " …'"});
+    for (const LogEntry& line : log->left_out(now)) options.log(line);
 }
 
 Host::Service::Service(Options given_options, const Registry& kinds)
-    : options(bounded(std::move(given_options))),
+    : log(std::make_shared<BoundedLog>(std::move(given_options.log))),
+      options(ready(std::move(given_options))),
       registry(kinds),
       cache(options.cache.empty() ? default_cache_folder() : options.cache, options.cache_size),
       rights(options.allow, options.launcher_key),
@@ -279,7 +273,7 @@ void Host::Service::leave(Clock::time_point now, bool for_good) {
 bool Host::Service::gone(Clock::time_point now) {
     const bool said = !door.waiting() || now - leaving->since > options.drain;
     if (leaving->farewell) return !run && said && now - *leaving->farewell > goodbye_deadline;
-    if (!run) return !ending || now - leaving->since > goodbye_deadline;
+    if (!run) return !ended.ending() || now - leaving->since > goodbye_deadline;
     if (now - leaving->since > options.drain) return true;
     const auto last_work = std::max(leaving->since, traffic.last_work());
     const bool idle = traffic.is_idle() && !door.waiting() && now - last_work > quiet_before_leaving;

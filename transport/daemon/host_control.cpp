@@ -30,7 +30,7 @@ bool may_have_own_lines(std::size_t lines, std::size_t most) {
 
 }  // namespace
 
-void Host::Service::control(const Sender& sender, const packet::Header& header, const Fields& fields) {
+void Host::Service::control(const PacketSender& sender, const packet::Header& header, const Fields& fields) {
     const bool ours = run && header.run == run->id();
     const auto& route = sender.route;
     switch (header.type) {
@@ -105,7 +105,7 @@ void Host::Service::greet(const std::string& route, const Fields& fields) {
 }
 
 std::string Host::Service::busy_with() const {
-    if (!run && ending) return "it still ends the run before";
+    if (!run && ended.ending()) return "it still ends the run before";
     return "it serves another run" + (who.empty() || rights.asks_for_keys() ? "" : ", of " + who);
 }
 
@@ -116,7 +116,7 @@ void Host::Service::refuse(const std::string& route, std::uint64_t id, const std
     door.send(route, Type::broken, id, Fields{}.set("text", why));
 }
 
-void Host::Service::begin(const Sender& sender, std::uint64_t id, const Fields& fields) {
+void Host::Service::begin(const PacketSender& sender, std::uint64_t id, const Fields& fields) {
     if (leaving) return;
     const auto& route = sender.route;
     auto members = AllowList::parse_what_can_be(fields.text("members"));
@@ -125,43 +125,42 @@ void Host::Service::begin(const Sender& sender, std::uint64_t id, const Fields& 
         peers->hear(fields.text("numbers"));
         return go_on(route, plan_from_json(fields.text("plan")));
     }
-    if (arriving && arriving->id == id && arriving->key == sender.key) {
-        arriving->route = route;
+    if (arriving && arriving->id == id && arriving->sender.key == sender.key) {
+        arriving->sender.route = route;
         return;
     }
-    if (run || arriving || ending)
+    if (run || arriving || ended.ending())
         return door.send(route, Type::refuse, id,
                          Fields{}.set("text", busy_with()).set("busy", 1).set("ports", options.ports));
     if (const auto size = fields.text("job").size() + fields.text("plan").size(); size > most_job_bytes)
         return refuse(route, id, "a job of " + std::to_string(size) + " bytes is larger than any that is taken");
     auto read = background.start([job = fields.text("job"), plan = fields.text("plan"), this] {
-        Arrival arrival{read_job(job, registry), plan_from_json(plan)};
-        if (!fits(arrival.plan, arrival.job.graph)) throw Error("the plan does not fit the graph");
-        return arrival;
+        ArrivingJob::Content content{read_job(job, registry), plan_from_json(plan)};
+        if (!fits(content.plan, content.job.graph)) throw Error("the plan does not fit the graph");
+        return content;
     });
-    arriving = Arriving{id,
-                        route,
-                        sender.key,
-                        fields.text("you"),
-                        fields.text("who"),
-                        std::move(members),
-                        fields.text("numbers"),
-                        std::move(read)};
+    arriving = ArrivingJob{id,
+                           sender,
+                           fields.text("you"),
+                           fields.text("who"),
+                           std::move(members),
+                           fields.text("numbers"),
+                           std::move(read)};
 }
 
 void Host::Service::look_at_arriving() {
-    if (!arriving || arriving->read.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    if (!arriving || !arriving->is_read()) return;
     auto job = std::move(*arriving);
     arriving.reset();
     try {
-        start(job, job.read.get());
+        start(job, job.content.get());
     } catch (const std::exception& error) {
-        refuse(job.route, job.id, words_of(error));
+        refuse(job.sender.route, job.id, words_of(error));
         if (run && run->id() == job.id) drop_run(words_of(error));
     }
 }
 
-void Host::Service::start(const Arriving& job, Arrival read) {
+void Host::Service::start(const ArrivingJob& job, ArrivingJob::Content read) {
     if (leaving) return;
     // a hosts file may ask for more places than there are cores
     const auto mine = places_of_host(read.plan, job.you);
@@ -175,7 +174,7 @@ void Host::Service::start(const Arriving& job, Arrival read) {
     HostedRun::Assignment assignment{job.id, job.you, places, read.plan, std::move(read.job)};
     run = std::make_unique<HostedRun>(context, cache, registry, last_scene, std::move(assignment),
                                       ShortWays{lines, leadership});
-    rights.serve(job.key);
+    rights.serve(job.sender.key);
     rights.use_members(job.members);
     gateway.emplace(*context, job.id);
     peers.emplace(
@@ -193,9 +192,9 @@ void Host::Service::start(const Arriving& job, Arrival read) {
     peers->hear(job.numbers);
     who = job.who;
     forget_peak_memory();
-    ++figures.runs;
+    ++runs_begun;
     options.log("serves a run" + (who.empty() ? "" : " of " + who));
-    go_on(job.route, read.plan);
+    go_on(job.sender.route, read.plan);
 }
 
 // Hosts of a run that have keys know each other by them; some have none.
@@ -243,14 +242,14 @@ void Host::Service::tell_found() {
 }
 
 // Who shares this host with others is not told of their work.
-void Host::Service::tell_state(const Sender& sender) {
+void Host::Service::tell_state(const PacketSender& sender) {
     Fields fields;
     set(fields, machine);
     fields.set("name", options.name.empty() ? machine.name : options.name).set("places", options.places);
-    fields.set("state", leaving  ? "leaves"
-                        : run    ? run->words()
-                        : ending ? "ends a run"
-                                 : "is free")
+    fields.set("state", leaving          ? "leaves"
+                        : run            ? run->words()
+                        : ended.ending() ? "ends a run"
+                                         : "is free")
         .set("who", run && rights.is_owner(sender.key) ? who : "");
     fields.set("plugins", joined(std::vector(registry.plugins().begin(), registry.plugins().end()), ", "));
     fields.set("clock", static_cast<std::uint64_t>(
@@ -277,7 +276,7 @@ void Host::Service::stop_run(const std::string& route) {
     rights.serve({});
     traffic.serve(0, nullptr);
     const auto done = so_far();
-    if (run->places()) figures.answered += run->places()->progress();
+    if (run->places()) answered += run->places()->progress();
     peers.reset();
     gateway.reset();
     door.drop_waiting();
@@ -291,40 +290,30 @@ void Host::Service::stop_run(const std::string& route) {
         return counters;
     };
     try {
-        ending = Ending{id, route, done, background.start(stop)};
+        ended.begin(id, route, done, background.start(stop));
     } catch (const std::system_error&) {  // no thread is to be had
         std::promise<Counters> counters;
         counters.set_value(stop());
-        ending = Ending{id, route, done, counters.get_future()};
+        ended.begin(id, route, done, counters.get_future());
     }
     look_at_ending();
-}
-
-// Places of all runs come together, as there may be many runs.
-void Host::Service::add_ended(const Counters& counters) {
-    auto& sum = figures.ended;
-    for (const auto& [name, count] : Counters::all) sum.*count += counters.*count;
-    if (sum.places.empty()) sum.places.emplace_back();
-    for (const auto& place : counters.places) {
-        sum.places[0].lived_ns += place.lived_ns;
-        sum.places[0].waited_ns += place.waited_ns;
-        sum.places[0].idle_ns += place.idle_ns;
-    }
 }
 
 // What isn't among the counters of runs that have ended.
 PlaceThreads::SoFar Host::Service::so_far() const {
     if (run && run->places()) return run->places()->so_far();
-    return ending ? ending->so_far : PlaceThreads::SoFar{};
+    return ended.so_far();
 }
 
 void Host::Service::show_figures(Time now) {
     if (!shown.are_old(now)) return;
-    DaemonFigures next = figures;
+    DaemonFigures next;
     next.places = options.places;
+    next.runs = runs_begun, next.answered = answered;
+    next.ended = ended.sum();
     next.serves = run != nullptr, next.leaves = leaving.has_value();
     next.answered += run && run->places() ? run->places()->progress() : 0;
-    next.broken_packets = broken_packets + figures.ended.broken_packets;
+    next.broken_packets = broken_packets + ended.sum().broken_packets;
     next.when = now;
     const auto more = so_far();
     next.ended.rays += more.rays;
@@ -335,21 +324,14 @@ void Host::Service::show_figures(Time now) {
 }
 
 void Host::Service::look_at_ending() {
-    if (!ending || ending->counters.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    auto over = std::move(*ending);
-    ending.reset();
-    auto counters = over.counters.get();
-    counters.broken_packets += std::exchange(broken_packets, 0);
-    add_ended(counters);
-    if (given_up.id == over.id) counters += given_up.done;
-    given_up = {over.id, counters};
-    given_up.done.places.clear(), given_up.done.traces.clear();
-    if (over.route.empty()) return;
+    const auto over = ended.look(broken_packets);
+    if (!over || over->route.empty()) return;
+    const auto& counters = over->counters;
     Fields fields;
     for (const auto& [name, count] : counters.named()) fields.set(name, count);
     fields.set("places", to_text(counters.places)).set("peak_memory", peak_memory());
     if (!counters.traces.empty()) fields.set("traces", to_bytes(counters.traces));
-    door.send(over.route, Type::ended, over.id, fields);
+    door.send(over->route, Type::ended, over->id, fields);
 }
 
 void Host::Service::end(const std::string& route, std::uint64_t id) {
@@ -359,10 +341,7 @@ void Host::Service::end(const std::string& route, std::uint64_t id) {
         return stop_run(route);
     }
     if (arriving && arriving->id == id) arriving.reset();
-    if (ending && ending->id == id) {
-        ending->route = route;
-        return;
-    }
+    if (ended.wanted_by(route, id)) return;
     door.send(route, Type::ended, id, {});
 }
 

@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "core/base/log_bounds.hpp"
+#include "transport/daemon/arriving_job.hpp"
 #include "transport/daemon/background_work.hpp"
+#include "transport/daemon/bounded_log.hpp"
+#include "transport/daemon/ended_runs.hpp"
 #include "transport/daemon/host.hpp"
 #include "transport/daemon/host_door.hpp"
 #include "transport/daemon/host_rights.hpp"
@@ -32,13 +34,11 @@ namespace lightnet {
 /// The host itself. What it serves is one run at a time; all of it belongs to the thread of serve(), which leaves the
 /// door and the traffic of its places to these while it rests.
 struct Host::Service {
-    static constexpr double lines_per_minute = 300;  // of one kind: a loop of short runs says two in .2 s
-    static constexpr double refusals_per_minute = 20;
     using Time = std::chrono::steady_clock::time_point;
     std::shared_ptr<const SocketContext> context = std::make_shared<const SocketContext>();
-    Options options;
+    std::shared_ptr<BoundedLog> log;
+    Options options;  // whose log goes there
     const Registry& registry;
-    LogBounds log_bounds{lines_per_minute}, refusals{refusals_per_minute};
     BlobCache cache;
     Machine machine = this_machine();
     std::uint64_t process = process_number();
@@ -47,47 +47,17 @@ struct Host::Service {
     PlaceTraffic traffic{door, rights};
     std::shared_ptr<Leadership> leadership = std::make_shared<Leadership>(traffic);
     std::uint64_t broken_packets = 0;
-    // Who has sent a packet: how to answer, and his key as text.
-    struct Sender {
-        std::string route, key;
-    };
-    // A job that is being read, in the background: whoever sent it may be nobody's friend.
-    struct Arrival {
-        Job job;
-        Plan plan;
-    };
-    struct Arriving {
-        std::uint64_t id = 0;
-        std::string route, key;
-        std::string you, who;  // as the launcher calls this host, and itself
-        AllowList members;     // of the run
-        std::string numbers;   // where its hosts are that have names
-        std::future<Arrival> read;
-    };
-    std::optional<Arriving> arriving;
+    std::optional<ArrivingJob> arriving;
     LastScene last_scene;
     std::unique_ptr<HostedRun> run;
     std::optional<Gateway> gateway;        // of the run
     std::optional<PeerConnections> peers;  // to the other hosts of the run
-    // A run that has ended, and whose threads may take a while to.
-    struct Ending {
-        std::uint64_t id = 0;
-        std::string route;           // who wants its counters; empty: nobody
-        PlaceThreads::SoFar so_far;  // until they are there
-        std::future<Counters> counters;
-    };
-    std::optional<Ending> ending;
-    // What was counted of a run that was given up, as its launcher was silent: it may find us again, and begin it anew.
-    struct GivenUp {
-        std::uint64_t id = 0;
-        Counters done;
-    };
-    GivenUp given_up;
+    EndedRuns ended;
     std::string who;       // began the run
     std::string launcher;  // route to it
     // Without a word from it for so long, its run is over.
     Lease lease{std::chrono::milliseconds(400), std::chrono::seconds(4), std::chrono::seconds(12)};
-    DaemonFigures figures;  // of runs that have ended, and how many began
+    std::uint64_t runs_begun = 0, answered = 0;  // the latter: bundles and tiles of runs that are over
     ShownFigures shown;
     Time needed{};  // last, by anyone
 
@@ -102,26 +72,26 @@ struct Host::Service {
     BackgroundWork background;  // last: what it does looks at the rest
 
     Service(Options given, const Registry& kinds);
-    Options bounded(Options wanted);
+    Options ready(Options wanted) const;
     HostDoor::Options door_options() const;
     bool turn(const std::atomic<bool>& stop);
     void survive(const std::exception& error);
     void arrived(PlaceTraffic::Arrival arrival);
     void damaged(const std::string& route);
     void from_another(const packet::Header& header, Frames frames);
-    void control(const Sender& sender, const packet::Header& header, const packet::Fields& fields);
+    void control(const PacketSender& sender, const packet::Header& header, const packet::Fields& fields);
     packet::Fields answer_to_ping(const packet::Fields& ping, bool ours);
     void greet(const std::string& route, const packet::Fields& fields);
-    void begin(const Sender& sender, std::uint64_t id, const packet::Fields& fields);
+    void begin(const PacketSender& sender, std::uint64_t id, const packet::Fields& fields);
     void look_at_arriving();
-    void start(const Arriving& job, Arrival read);
+    void start(const ArrivingJob& job, ArrivingJob::Content read);
     void go_on(const std::string& route, const Plan& plan);
     void use(const Plan& plan);
     void drop_owner();
     std::optional<LineKeys> keys_to(const std::string& host) const;
     std::string busy_with() const;
     void tell_needs();
-    void tell_state(const Sender& sender);
+    void tell_state(const PacketSender& sender);
     void tell_found();
     void take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece);
     void stop_run(const std::string& route);
@@ -143,7 +113,6 @@ struct Host::Service {
     void forward_to_launcher(Frames& frames);
     void show_figures(Time now);
     void tell_left_out(Time now);
-    void add_ended(const Counters& counters);
     PlaceThreads::SoFar so_far() const;
     void leave(Time now, bool for_good);
     bool gone(Time now);
