@@ -18,6 +18,7 @@
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene_media.hpp"
 
 namespace lightnet {
@@ -37,7 +38,7 @@ class DirectLighting final : public LightOp {
 public:
     explicit DirectLighting(const NodeContext& here)
         : scene_(here.scene()),
-          groups_(scene_.groups()),
+          groups_(scene_.lights().groups()),
           key_(here.key()),
           first_rays_(here.shared<SharedFirstRays>()),
           samples_(static_cast<std::uint32_t>(here.integer("samples"))),
@@ -119,8 +120,8 @@ private:
     template <class Take>
     void finish(Samplers& some, std::span<const Query> questions, Take&& take) const {
         some.found.assign(some.asked.size() * groups_, Rgb{});
-        if (scene_.has_lamps()) some.numbers.draw(place_on_lamp, some.places);
-        if (scene_.has_many_lamps()) some.numbers.draw(choice_of_lamp, some.choices);
+        if (!scene_.lights().empty()) some.numbers.draw(place_on_lamp, some.places);
+        if (scene_.lights().many()) some.numbers.draw(choice_of_lamp, some.choices);
         const std::size_t end = some.before + some.asked.size();
         some.by_direction = some.first_rays.some(some.before, end);
         const bool known = some.first_rays.known(end);
@@ -143,7 +144,7 @@ private:
         next = some.vertices.begin(next, some.asked.size(),
                                    [&](std::size_t i) -> const Query& { return questions[some.asked[i]]; });
         some.vertices.find_bsdfs();
-        if (scene_.has_lamps())
+        if (!scene_.lights().empty())
             some.vertices.sample_lamps(
                 {some.choices, some.places}, heuristic_, some.shadow_rays,
                 [](std::uint32_t) {
@@ -177,12 +178,12 @@ private:
             const SharedFirstRays::One& one = some.by_direction[i];
             if (!one.hit)
                 some.leaving.push_back(i);
-            else if (scene_.shines(*one.hit))
+            else if (scene_.lights().shines(one.hit->geometry))
                 some.lamps_met.add(scene_, i, one.step.from, one.step.sample, scene_.surface(*one.hit));
         }
         meet_lamps(some);
-        if (scene_.has_suns()) meet_suns(some);
-        for (std::size_t i = 0; scene_.has_environment() && i < some.leaving.size(); i += lanes)
+        if (scene_.lights().has_suns()) meet_suns(some);
+        for (std::size_t i = 0; scene_.lights().has_environment() && i < some.leaving.size(); i += lanes)
             leave(some, std::span(some.leaving).subspan(i, std::min(lanes, some.leaving.size() - i)));
         some.leaving.clear();
         some.looking.clear();
@@ -205,7 +206,7 @@ private:
     void meet_suns(Samplers& some) const {
         for (const std::uint32_t i : some.leaving) {
             const PathVertices::Step& step = some.by_direction[i].step;
-            if (const auto sun = scene_.sun(step.ray.direction))
+            if (const auto sun = scene_.lights().sun(step.ray.direction))
                 some.found[i * groups_ + sun->group] +=
                     step.sample.weight * sky_by_bsdf(sun->light, step.sample, heuristic_) * through_media(some, i);
         }
@@ -214,10 +215,10 @@ private:
         std::array<Ray, lanes> rays;
         std::array<SkyRadiance, lanes> sky;
         for (std::size_t k = 0; k < samples.size(); ++k) rays[k] = some.by_direction[samples[k]].step.ray;
-        scene_.look_at_sky(std::span(rays).first(samples.size()), sky);
+        scene_.lights().look_at_sky(std::span(rays).first(samples.size()), sky);
         for (std::size_t k = 0; k < samples.size(); ++k) {
             const BsdfSample& sample = some.by_direction[samples[k]].step.sample;
-            some.found[samples[k] * groups_ + scene_.environment_group()] +=
+            some.found[samples[k] * groups_ + scene_.lights().environment_group()] +=
                 sample.weight * sky_by_bsdf(sky[k], sample, heuristic_) * through_media(some, samples[k]);
         }
     }

@@ -2,6 +2,7 @@
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -16,7 +17,8 @@ public:
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         for (std::size_t i = 0; i < questions.size(); ++i) {
             const SurfacePoint point = scene_.surface(questions[i]);
-            answers[i * scene_.groups() + scene_.group_of(point)] = scene_.emission(point, questions[i].outgoing);
+            answers[i * scene_.lights().groups() + scene_.lights().group_of(point)] =
+                scene_.lights().emission(point, questions[i].outgoing);
         }
     }
 

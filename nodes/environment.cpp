@@ -6,6 +6,7 @@
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_media.hpp"
 
@@ -20,14 +21,15 @@ public:
 
     void light(std::span<const Query> questions, std::span<Rgb> answers) const override {
         std::fill(answers.begin(), answers.end(), Rgb{});
-        if (!scene_.has_environment()) return;
+        if (!scene_.lights().has_environment()) return;
         SkyRays rays;
         for (std::size_t i = 0; i < questions.size(); ++i) add_rays(questions[i], i, rays);
         rays.occluded.resize(rays.rays.size());
         scene_.occluded(rays.rays, rays.occluded);
         for (std::size_t k = 0; k < rays.rays.size(); ++k)
             if (!rays.occluded[k])
-                answers[rays.askers[k] * scene_.groups() + scene_.environment_group()] += rays.light[k];
+                answers[rays.askers[k] * scene_.lights().groups() + scene_.lights().environment_group()] +=
+                    rays.light[k];
     }
 
 private:
@@ -49,7 +51,7 @@ private:
             if (!sample) continue;
             const Ray ray = point.ray_towards(sample->incoming);
             rays.rays.push_back(ray);
-            Rgb light = sample->weight * scene_.environment(ray) / float(samples_);
+            Rgb light = sample->weight * scene_.lights().environment(ray) / float(samples_);
             if (scene_.has_media()) light *= scene_.media().transmittance(ray, samples.next_2d());
             rays.light.push_back(light);
             rays.askers.push_back(asker);

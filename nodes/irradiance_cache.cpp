@@ -19,6 +19,7 @@
 #include "core/network/light/node_context.hpp"
 #include "core/network/light/rehearsal.hpp"
 #include "core/network/light/services.hpp"
+#include "core/scene/lamps/lights.hpp"
 
 namespace lightnet {
 namespace {
@@ -32,7 +33,7 @@ class IrradianceCache final : public LightOp {
 public:
     explicit IrradianceCache(const NodeContext& here)
         : scene_(here.scene()),
-          groups_(scene_.groups()),
+          groups_(scene_.lights().groups()),
           inputs_(here.inputs()),
           rehearsal_(here.rehearsal()),
           key_(here.key()),

@@ -11,6 +11,7 @@
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/network/light/services.hpp"
+#include "core/scene/lamps/lights.hpp"
 
 namespace lightnet {
 namespace {
@@ -68,7 +69,7 @@ public:
         if (tree_->size() == 0 && !beam_tree_) return;
         Nearest scratch;
         gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
-            const auto groups = answers.subspan(i * scene_.groups(), scene_.groups());
+            const auto groups = answers.subspan(i * scene_.lights().groups(), scene_.lights().groups());
             if (!at.point.is_in_space())
                 tree_->radiance(
                     {at.point, at.bsdf, at.outgoing, at.lobes, window_of(scene_, questions[i], photon_window)}, radius_,

@@ -11,6 +11,7 @@
 #include "core/network/light/light_op.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/network/light/services.hpp"
+#include "core/scene/lamps/lights.hpp"
 
 namespace lightnet {
 namespace {
@@ -60,7 +61,7 @@ public:
         Nearest scratch;
         gather_each(scene_, questions, [&](std::uint32_t i, const Gathering& at) {
             const std::size_t map = questions[i].sample % samples_per_block;
-            const auto groups = answers.subspan(i * scene_.groups(), scene_.groups());
+            const auto groups = answers.subspan(i * scene_.lights().groups(), scene_.lights().groups());
             if (!at.point.is_in_space())
                 maps_[map]->radiance(
                     {at.point, at.bsdf, at.outgoing, at.lobes, window_of(scene_, questions[i], windows_[map])},

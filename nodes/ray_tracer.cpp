@@ -12,6 +12,7 @@
 #include "core/network/graph/kind.hpp"
 #include "core/network/light/node_context.hpp"
 #include "core/network/light/renderer.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_media.hpp"
 
@@ -161,7 +162,7 @@ private:
                 std::span<Rgb> pixel, const Tile& tile) const {
         if (hit && only_scatters(*hit) && !scene_.has_media())
             return ask_about(sample, SpecularPath(ray), *hit, 0, 0, scene_.lobes(*hit), met);
-        met.emitted.assign(scene_.groups(), Rgb{});
+        met.emitted.assign(scene_.lights().groups(), Rgb{});
         met.branches.assign(1, {SpecularPath(ray), hit, 0});
         for (std::uint32_t surface = 0; !met.branches.empty(); ++surface) {
             const Branch branch = met.branches.back();
@@ -181,8 +182,8 @@ private:
         if (!branch.hit) {
             if (!background_ && surface == 0) return;
             const Ray& ray = branch.path.ray();
-            met.emitted[scene_.environment_group()] += branch.path.weight() * scene_.environment(ray);
-            if (const auto sun = scene_.sun(ray.direction))
+            met.emitted[scene_.lights().environment_group()] += branch.path.weight() * scene_.lights().environment(ray);
+            if (const auto sun = scene_.lights().sun(ray.direction))
                 met.emitted[sun->group] += branch.path.weight() * sun->light.radiance;
             return;
         }
@@ -195,7 +196,8 @@ private:
         const Bsdf bsdf = scene_.bsdf(point);
         const Vec3 outgoing = -branch.path.ray().direction;
         const std::uint8_t lobes = bsdf.lobes();
-        met.emitted[scene_.group_of(point)] += branch.path.weight() * scene_.emission(point, outgoing);
+        met.emitted[scene_.lights().group_of(point)] +=
+            branch.path.weight() * scene_.lights().emission(point, outgoing);
         if (lobes & lobe::rough) ask(lobes);
         if (!(lobes & lobe::specular) || branch.depth >= max_depth_) return;
         if (const auto reflected = branch.path.split(point, bsdf, both_carry)) {
@@ -214,7 +216,7 @@ private:
         if (branch.hit) way.far = branch.hit->distance;
         Samples samples(child(sample.key, flight_key, surface), sample.sample);
         const Flight flight = scene_.media().fly(way, branch.path.weight(), samples.next_2d());
-        met.emitted[scene_.environment_group()] += branch.path.weight() * flight.emitted;
+        met.emitted[scene_.lights().environment_group()] += branch.path.weight() * flight.emitted;
         branch.path.dim(flight.weight);
         if (!flight.collision) return false;
         branch.path.arrive(flight.collision->distance);
@@ -226,7 +228,7 @@ private:
     /// Most surfaces do, everywhere alike: who is asked works them out.
     bool only_scatters(const Hit& hit) const {
         const std::uint8_t everywhere = scene_.lobes(hit);
-        return everywhere && !(everywhere & lobe::specular) && !scene_.shines(hit);
+        return everywhere && !(everywhere & lobe::specular) && !scene_.lights().shines(hit.geometry);
     }
 
     /// The question about rough lobes of that surface, so many mirrors and panes behind the eye.

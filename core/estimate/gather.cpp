@@ -2,6 +2,7 @@
 
 #include "core/base/math/samples.hpp"
 #include "core/estimate/specular_path.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene_media.hpp"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ void follow(const Scene& scene, const GatherRay& ray, std::optional<Hit> hit, st
 void gather(const Scene& scene, const Inputs& inputs, std::size_t index, std::span<const GatherRay> rays,
             std::span<GatherResult> results) {
     const std::size_t width = inputs[index].width();
-    const std::size_t of_media = width > 1 ? scene.environment_group() : 0;
+    const std::size_t of_media = width > 1 ? scene.lights().environment_group() : 0;
     std::vector<Ray> first;
     first.reserve(rays.size());
     for (const GatherRay& ray : rays) first.push_back(ray.ray);

@@ -7,6 +7,7 @@
 
 #include "core/base/math/rgb.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -18,11 +19,11 @@ public:
     /// Sample `who` has gone from `from` by `sample` and has come to `end`, which may be on a lamp.
     void add(const Scene& scene, std::uint32_t who, const LitPoint& from, const BsdfSample& sample,
              const SurfacePoint& end) {
-        const Rgb emitted = scene.emission(end, -sample.incoming);
+        const Rgb emitted = scene.lights().emission(end, -sample.incoming);
         if (is_black(emitted)) return;
         // What a specular surface sends on can't be found by a sampled light.
-        const auto met = sample.lobe == lobe::specular ? std::nullopt : scene.lamp_met(from, sample.incoming, end);
-        all_.push_back({who, scene.group_of(end), emitted, sample.pdf, met.has_value()});
+        const auto met = sample.lobe == lobe::specular ? std::nullopt : scene.lights().met(from, sample.incoming, end);
+        all_.push_back({who, scene.lights().group_of(end), emitted, sample.pdf, met.has_value()});
         if (met) met_.push_back(*met);
     }
     /// found(who, light, group) of each, in the order in which they were added, and forgets them.
@@ -30,7 +31,7 @@ public:
     void find(const Scene& scene, Heuristic heuristic, Found&& found) {
         if (all_.empty()) return;
         pdfs_.resize(met_.size());
-        scene.light_pdfs(met_, pdfs_);
+        scene.lights().pdfs(met_, pdfs_);
         std::size_t next = 0;
         for (const One& one : all_) {
             const float other = one.met ? pdfs_[next++] : 0;

@@ -14,6 +14,7 @@
 #include "core/estimate/shadow_rays.hpp"
 #include "core/scene/batch/lambertian_surfaces.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -24,7 +25,7 @@ class PathVertices {
 public:
     /// `guide`: by which paths go on; null: by surfaces alone.
     explicit PathVertices(const Scene& scene, const LightGuide* guide = nullptr)
-        : scene_(scene), guide_(guide), shapes_(scene.column_shapes()), only_lamp_(scene.only_flat_lamp()) {}
+        : scene_(scene), guide_(guide), shapes_(scene.column_shapes()), only_lamp_(scene.lights().only_flat_lamp()) {}
 
     void clear() {
         plain_.clear(), glossy_.clear();
@@ -284,7 +285,7 @@ private:
             if (!numbers.choices.empty()) choices_.push_back(numbers.choices[who(i)]);
             places_.push_back(numbers.places[who(i)]);
         }
-        scene_.sample_lights(lit_, choices_, places_, lamps_);
+        scene_.lights().sample(lit_, choices_, places_, lamps_);
     }
     /// Of visitors from `next` on, as many as go at once: add(path, ray to its lamp). Returns the first that is left.
     template <class Add>

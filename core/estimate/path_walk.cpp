@@ -8,6 +8,7 @@
 #include "core/estimate/path_chances.hpp"
 #include "core/estimate/through_media.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 
 namespace lightnet {
 namespace {
@@ -21,13 +22,13 @@ public:
         : scene_(scene),
           guide_(guide),
           first_rays_(plan.all ? nullptr : first),
-          groups_(static_cast<std::uint32_t>(scene.groups())),
+          groups_(static_cast<std::uint32_t>(scene.lights().groups())),
           key_(key),
           samples_(plan.samples),
           max_depth_(plan.max_depth),
           roulette_depth_(plan.roulette_depth),
           all_(plan.all),
-          looks_twice_(scene_.has_environment() && !scene_.samples_environment()),
+          looks_twice_(scene_.lights().has_environment() && !scene_.lights().samples_environment()),
           media_(scene.has_media()) {}
 
     void walk(std::span<const Query> questions, std::span<Rgb> answers, Learnt* learnt) const {
@@ -172,7 +173,7 @@ private:
             Ray way = batch.rays[i];
             if (batch.hits[i]) way.far = batch.hits[i]->distance;
             const Flight flight = scene_.media().fly(way, path.weight, flight_numbers(batch, path.sum, 2 * depth));
-            batch.sums[path.sum + scene_.environment_group()] += path.weight * flight.emitted;
+            batch.sums[path.sum + scene_.lights().environment_group()] += path.weight * flight.emitted;
             path.weight *= flight.weight;
             batch.collisions[i] = flight.collision;
         }
@@ -211,8 +212,8 @@ private:
         const ManySamples& samples = batch.samples;
         Numbers& numbers = batch.numbers;
         const std::uint32_t first = depth * dimensions;
-        if (scene_.has_lamps() && (all_ || depth > 0)) samples.draw(first + place_on_lamp, numbers.places);
-        if (scene_.has_many_lamps()) samples.draw(first + choice_of_lamp, numbers.choices);
+        if (!scene_.lights().empty() && (all_ || depth > 0)) samples.draw(first + place_on_lamp, numbers.places);
+        if (scene_.lights().many()) samples.draw(first + choice_of_lamp, numbers.choices);
         if (depth > 0 || !first_rays_) samples.draw(first + direction, numbers.directions);
         if (guided || depth >= roulette_depth_) samples.draw(first + survival, numbers.survivals);
     }
@@ -253,20 +254,20 @@ private:
 
     /// What so many paths find that meet nothing any more.
     void leave(Batch& batch, std::size_t count, std::uint32_t depth) const {
-        if (scene_.has_suns()) meet_suns(batch, count);
-        if (count == 0 || !scene_.has_environment()) return;
-        scene_.look_at_sky(std::span(batch.skywards).first(count), batch.sky);
+        if (scene_.lights().has_suns()) meet_suns(batch, count);
+        if (count == 0 || !scene_.lights().has_environment()) return;
+        scene_.lights().look_at_sky(std::span(batch.skywards).first(count), batch.sky);
         const float part = two_looks(depth - 1) ? 0.5f : 1.0f;
         for (std::size_t k = 0; k < count; ++k) {
             const Path& path = batch.paths[batch.leaving[k]];
-            batch.sums[path.sum + scene_.environment_group()] +=
+            batch.sums[path.sum + scene_.lights().environment_group()] +=
                 part * path.weight * sky_by_bsdf(batch.sky[k], step_of(path), heuristic);
         }
     }
 
     void meet_suns(Batch& batch, std::size_t count) const {
         for (std::size_t k = 0; k < count; ++k) {
-            const auto sun = scene_.sun(batch.skywards[k].direction);
+            const auto sun = scene_.lights().sun(batch.skywards[k].direction);
             if (!sun) continue;
             const Path& path = batch.paths[batch.leaving[k]];
             batch.sums[path.sum + sun->group] += path.weight * sky_by_bsdf(sun->light, step_of(path), heuristic);
@@ -287,7 +288,7 @@ private:
     /// What paths find at surfaces by looking for light, rather than by batch on.
     void look_around(Batch& batch, std::uint32_t depth) const {
         const auto& paths = batch.paths;
-        if (scene_.has_lamps()) {
+        if (!scene_.lights().empty()) {
             const Numbers& numbers = batch.numbers;
             batch.vertices.sample_lamps(
                 {numbers.choices, numbers.places}, heuristic, batch.shadow_rays,
@@ -305,10 +306,10 @@ private:
         if (!found) return;
         const Ray ray = at.point.ray_towards(found->incoming);
         SkyRadiance seen;
-        scene_.look_at_sky({&ray, 1}, {&seen, 1});
+        scene_.lights().look_at_sky({&ray, 1}, {&seen, 1});
         const Rgb sky = found->weight * sky_by_bsdf(seen, *found, heuristic);
         if (is_black(sky)) return;
-        batch.shadow_rays.add(ray, path.weight * (0.5f * sky), path.sum + scene_.environment_group());
+        batch.shadow_rays.add(ray, path.weight * (0.5f * sky), path.sum + scene_.lights().environment_group());
     }
 
     /// Is the environment seen from the surface number `depth` looked at by two directions?

@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene_media.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ double power_of_lamps(const Scene& scene) {
         Samples numbers(key_of("power"), i);
         const float choice = numbers.next();
         const Vec2 place = numbers.next_2d(), direction = numbers.next_2d();
-        if (const auto light = scene.emit(choice, place, direction)) sum += max_component(light->flux) / count;
+        if (const auto light = scene.lights().emit(choice, place, direction)) sum += max_component(light->flux) / count;
     }
     return sum;
 }
@@ -86,10 +87,10 @@ std::optional<PhotonShooter::Start> PhotonShooter::start(const EmissionNumbers& 
     const bool of_media = numbers[0] < share;
     const float others = 1 - share, choice = of_media ? numbers[0] / share : (numbers[0] - share) / others;
     auto light = of_media ? scene_.media().emit(choice, place, direction, time)
-                          : scene_.emit(share > 0 ? choice : numbers[0], place, direction, time);
+                          : scene_.lights().emit(share > 0 ? choice : numbers[0], place, direction, time);
     if (!light) return std::nullopt;
     if (share > 0) light->flux *= 1 / (of_media ? share : others);
-    if (of_media) light->group = scene_.environment_group();
+    if (of_media) light->group = scene_.lights().environment_group();
     return Start{*light, of_media};
 }
 

@@ -1,4 +1,5 @@
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 
 #include <cmath>
 
@@ -23,7 +24,7 @@ float direction_share(Heuristic heuristic, bool from_infinity, float mine, float
 std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, const LampNumbers& numbers,
                                    Heuristic heuristic) {
     if (!finds_lamps(scene, at)) return {};
-    const auto lamp = scene.sample_light(lit_point(at), numbers.choice, numbers.place);
+    const auto lamp = scene.lights().sample(lit_point(at), numbers.choice, numbers.place);
     return lamp ? ray_to_lamp(scene, at, *lamp, heuristic) : std::nullopt;
 }
 
@@ -57,14 +58,14 @@ Rgb light_by_bsdf(const Scene& scene, const LitPoint& from, const BsdfSample& sa
     if (!end) {
         SkyRadiance sky;
         const Ray ray{from.position, sample.incoming, Ray().far, from.time};
-        scene.look_at_sky({&ray, 1}, {&sky, 1});
-        const auto sun = scene.sun(sample.incoming);
+        scene.lights().look_at_sky({&ray, 1}, {&sky, 1});
+        const auto sun = scene.lights().sun(sample.incoming);
         const Rgb light = sky_by_bsdf(sky, sample, heuristic);
         return sun ? light + sky_by_bsdf(sun->light, sample, heuristic) : light;
     }
-    const Rgb emitted = scene.emission(*end, -sample.incoming);
+    const Rgb emitted = scene.lights().emission(*end, -sample.incoming);
     if (is_black(emitted)) return {};
-    const float other = sample.lobe == lobe::specular ? 0 : scene.light_pdf(from, sample.incoming, *end);
+    const float other = sample.lobe == lobe::specular ? 0 : scene.lights().pdf(from, sample.incoming, *end);
     return lamp_by_bsdf(emitted, sample.pdf, other, heuristic);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/math/rgb.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/surfaces/heuristic.hpp"
 
@@ -82,7 +83,7 @@ std::optional<LampRay> ray_to_lamp(const Scene& scene, const Gathering& at, cons
                                    Heuristic heuristic);
 /// Can light from a sampled lamp be sent on?
 inline bool finds_lamps(const Scene& scene, const Gathering& at) {
-    return scene.has_lamps() && (at.lobes & at.bsdf.lobes() & lobe::rough);
+    return !scene.lights().empty() && (at.lobes & at.bsdf.lobes() & lobe::rough);
 }
 
 /// Radiance that arrives from where a ray into `sample.incoming` ended (nothing there: the environment), times the

@@ -108,8 +108,7 @@ struct Scene::Built {
     }
 
     std::unique_ptr<const Lights> lights(const Lights::Wanted& wanted) const {
-        return std::make_unique<const Lights>(data, shading, Lights::Ball{box.center(), length(box.size()) / 2},
-                                              wanted);
+        return std::make_unique<const Lights>(data, shading, BallAround{box.center(), length(box.size()) / 2}, wanted);
     }
 
     std::shared_ptr<const Built> with_same_trees(std::shared_ptr<const Built> last) const {
@@ -298,87 +297,14 @@ SurfacePoint Scene::point_in_space(Vec3 position, std::uint16_t medium, ShutterT
 
 const Media& Scene::media() const { return view_.parts.expect(ScenePart::media), built_->media; }
 
-Rgb Scene::emission(const SurfacePoint& point, Vec3 direction) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->emission(point, direction);
-}
-
-bool Scene::shines(const Hit& hit) const { return view_.parts.expect(ScenePart::lamps), lights_->shines(hit.geometry); }
-
-Rgb Scene::environment(const Ray& ray) const { return view_.parts.expect(ScenePart::lamps), lights_->environment(ray); }
-
-std::optional<LightSample> Scene::sample_light(const LitPoint& from, float choice, Vec2 u) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->sample(from, choice, u);
-}
-
-void Scene::sample_lights(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
-                          LightSamples& samples) const {
-    view_.parts.expect(ScenePart::lamps);
-    lights_->sample(from, choices, u, samples);
-}
-
-const FlatLamp* Scene::only_flat_lamp() const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->only_flat_lamp();
-}
-
-float Scene::light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->pdf(from, direction, on);
-}
-std::optional<LampMet> Scene::lamp_met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->met(from, direction, on);
-}
-void Scene::light_pdfs(std::span<const LampMet> met, std::span<float> pdfs) const {
-    view_.parts.expect(ScenePart::lamps);
-    lights_->pdfs(met, pdfs);
-}
-
-float Scene::environment_pdf(const Ray& ray) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->environment_pdf(ray);
-}
-bool Scene::samples_environment() const { return view_.parts.expect(ScenePart::lamps), lights_->samples_environment(); }
-void Scene::look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const {
-    view_.parts.expect(ScenePart::lamps);
-    lights_->look_at_sky(rays, seen);
-}
-bool Scene::has_environment() const { return view_.parts.expect(ScenePart::lamps), lights_->has_environment(); }
-std::optional<SeenSun> Scene::sun(Vec3 direction) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->sun(direction);
-}
-bool Scene::has_suns() const { return view_.parts.expect(ScenePart::lamps), lights_->has_suns(); }
-bool Scene::has_lamps() const { return view_.parts.expect(ScenePart::lamps), !lights_->empty(); }
-bool Scene::has_many_lamps() const { return view_.parts.expect(ScenePart::lamps), lights_->many(); }
-
-std::optional<Emission> Scene::emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->emit(choice, position_sample, direction_sample, time);
-}
-
-bool Scene::may_shine(const Ray& ray) const { return has_environment() || may_meet_lamp(ray) || sun(ray.direction); }
-bool Scene::may_meet_lamp(const Ray& ray) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->may_meet_lamp(ray);
+bool Scene::may_shine(const Ray& ray) const {
+    return lights().has_environment() || lights().may_meet_lamp(ray) || lights().sun(ray.direction);
 }
 
 Ray Scene::ray_to(const SurfacePoint& from, const LightSample& lamp) const {
     const Vec3 origin = from.origin_towards(lamp.direction);
     return lamp.from_infinity ? Ray{origin, lamp.direction, Ray().far, from.time}
                               : ray_between(origin, lamp.position, lamp.direction, from.time);
-}
-
-std::size_t Scene::groups() const { return view_.parts.expect(ScenePart::lamps), lights_->groups(); }
-std::uint32_t Scene::group_of(const SurfacePoint& lamp) const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->group_of(lamp);
-}
-std::uint32_t Scene::environment_group() const {
-    view_.parts.expect(ScenePart::lamps);
-    return lights_->environment_group();
 }
 
 Box Scene::bounds() const { return view_.parts.expect(ScenePart::geometry), built_->box; }

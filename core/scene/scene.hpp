@@ -128,57 +128,12 @@ public:
     /// Appends how surfaces scatter at many points, made where they are to stay.
     void add_bsdfs(std::span<const SurfacePoint> points, std::vector<Bsdf>& to) const;
 
-    /// Radiance that the surface itself emits into `direction` (unit, away from it).
-    Rgb emission(const SurfacePoint& point, Vec3 direction) const;
-    /// Does it emit any? False is certain.
-    bool shines(const Hit& hit) const;
-    /// Radiance arriving from infinity against a ray that meets nothing, without that of suns.
-    Rgb environment(const Ray& ray) const;
-    /// The sun in that direction, if a ray can meet one there, and the density with which sample_light() finds it.
-    std::optional<SeenSun> sun(Vec3 direction) const;
-    bool has_suns() const;
-
-    /// Chooses a light and a direction to it from `from`: to a point of a lamp, to a bare light, a sun or the
-    /// environment. None: no light can reach the point by this sample.
-    std::optional<LightSample> sample_light(const LitPoint& from, float choice, Vec2 u) const;
-    /// Chooses a light for up to `lanes` points at once, which is quicker than sample_light(). No `choices`: there is
-    /// but one light.
-    void sample_lights(std::span<const LitPoint> from, std::span<const float> choices, std::span<const Vec2> u,
-                       LightSamples& samples) const;
-    /// What sample_light() always chooses, if that's a flat lamp; else null.
-    const FlatLamp* only_flat_lamp() const;
-    /// Density with which sample_light() finds the emitting point `on`, which lies in `direction` from `from`. 0 if it
-    /// is not on a lamp.
-    float light_pdf(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
-    /// light_pdf() in two steps, of which the second is quicker for many at once. None: it is not on a lamp.
-    std::optional<LampMet> lamp_met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
-    void light_pdfs(std::span<const LampMet> met, std::span<float> pdfs) const;
-    /// Density with which sample_light() finds the environment along a ray.
-    float environment_pdf(const Ray& ray) const;
-    /// Does sample_light() choose the environment at all? It never chooses one that is the same everywhere.
-    bool samples_environment() const;
-    /// Both of up to `lanes` rays: environment() and environment_pdf().
-    void look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const;
-    bool has_environment() const;
-    /// Is there anything that sample_light() could find, and has it more than one light to choose from?
-    bool has_lamps() const;
-    bool has_many_lamps() const;
-    /// Light leaving one of all lights at a time, chosen by power; the environment's goes into the ball around the
-    /// scene. None: nothing leaves by this sample.
-    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time = 0) const;
+    /// All that shines, as far as it is in view.
+    const Lights& lights() const { return view_.parts.expect(ScenePart::lamps), *lights_; }
     /// Could the ray end where light comes from? False is certain, true is a guess that is cheaper than tracing it.
     bool may_shine(const Ray& ray) const;
-    /// Could the ray end on a lamp? Where it is false, all that the ray could find is the environment.
-    bool may_meet_lamp(const Ray& ray) const;
     /// The ray on which nothing may be if the surface point is to see a light.
     Ray ray_to(const SurfacePoint& from, const LightSample& lamp) const;
-
-    /// How many groups of lamps are told apart, 1 or more: a light that is found says of which it is, by index.
-    std::size_t groups() const;
-    /// The group of the lamp that a surface point is on; 0 where it is on none.
-    std::uint32_t group_of(const SurfacePoint& lamp) const;
-    /// The group of all that comes from infinity without a direction of its own.
-    std::uint32_t environment_group() const;
 
     const Camera& camera() const { return view_.parts.expect(ScenePart::camera), camera_; }
     /// What it was made of.

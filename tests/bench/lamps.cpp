@@ -22,6 +22,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/base/query.hpp"
 #include "core/estimate/path_walk.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/surfaces/triangle.hpp"
 #include "tests/bench/figure.hpp"
@@ -96,7 +97,7 @@ std::vector<SurfacePoint> points(const Scene& scene) {
 
 std::optional<LightSample> look(const Scene& scene, const SurfacePoint& from, Samples samples) {
     const float choice = samples.next();
-    return scene.sample_light({from.position, from.normal}, choice, samples.next_2d());
+    return scene.lights().sample({from.position, from.normal}, choice, samples.next_2d());
 }
 
 double irradiance(const SurfacePoint& at, const LightSample& lamp) {
@@ -195,7 +196,7 @@ Cost cost(const Scene& scene) {
                 choices[k] = samples.next();
                 u[k] = samples.next_2d();
             }
-            scene.sample_lights(from, choices, u, found);
+            scene.lights().sample(from, choices, u, found);
             for (std::uint32_t k = 0; k < lanes; ++k)
                 if (found.found[k]) rays.push_back(scene.ray_to(places[first + k], found[k]));
         }

@@ -8,6 +8,7 @@
 #include "core/readers/common/spectra.hpp"
 #include "core/scene/bare_lights/slide_light.hpp"
 #include "core/scene/camera/camera.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/pbrt_text.hpp"
@@ -139,7 +140,7 @@ float power_of(const Scene& scene) {
         Samples samples(9, i);
         const float choice = samples.next();
         const Vec2 place = samples.next_2d();
-        if (const auto sent = scene.emit(choice, place, samples.next_2d())) sum += sent->flux.g;
+        if (const auto sent = scene.lights().emit(choice, place, samples.next_2d())) sum += sent->flux.g;
     }
     return float(sum / many);
 }
@@ -156,7 +157,7 @@ TEST(PbrtLights, MayShineByAPictureOfDirections) {
     EXPECT_THAT(scene.warnings, IsEmpty());
     const Scene made(scene);
     const auto from = [&](const Scene& which, Vec3 place) {
-        return which.sample_light(LitPoint(place), 0.5f, {0.5f, 0.5f});
+        return which.lights().sample(LitPoint(place), 0.5f, {0.5f, 0.5f});
     };
     EXPECT_NEAR(from(made, {0, 2, 0})->radiance.g, 3 * 2.0f / 4, 1e-3f);
     EXPECT_NEAR(from(made, {0, -2, 0})->radiance.g, 3 * 0.5f / 4, 1e-3f);
@@ -180,7 +181,7 @@ TEST(PbrtLights, TurnGoniogramsAsPbrtDoes) {
     const Scene scene(read_world(
         "LightSource \"goniometric\" \"string filename\" \"p.hdr\" \"rgb I\" [ 4 4 4 ] " + ball, {{"p.hdr", square}}));
     const auto from = [&](Vec3 place) {
-        return scene.sample_light(LitPoint(place), 0.5f, {0.5f, 0.5f}).value().radiance.g;
+        return scene.lights().sample(LitPoint(place), 0.5f, {0.5f, 0.5f}).value().radiance.g;
     };
     EXPECT_NEAR(from({2, 0, 0}), 1, 1e-3f);
     EXPECT_NEAR(from({-2, 0, 0}), 0.5f, 1e-3f);

@@ -9,6 +9,7 @@
 #include "core/readers/pbrt/older_materials.hpp"
 #include "core/scene/bare_lights/slide_light.hpp"
 #include "core/scene/camera/camera.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/pbrt_text.hpp"
 
@@ -163,7 +164,7 @@ float power_of(const Scene& scene) {
         Samples samples(9, i);
         const float choice = samples.next();
         const Vec2 place = samples.next_2d();
-        if (const auto sent = scene.emit(choice, place, samples.next_2d())) sum += sent->flux.g;
+        if (const auto sent = scene.lights().emit(choice, place, samples.next_2d())) sum += sent->flux.g;
     }
     return float(sum / many);
 }
@@ -176,7 +177,8 @@ TEST(OlderPbrt, HasSpotsThatFallOffWithTheFourthPower) {
     // cos 60° = 1/2: t = (cos a - 1/2) · 2; ∫ t⁴ over the cone is 2π · 1/2 · 1/5
     EXPECT_NEAR(power_of(Scene(scene)), 2 * 2 * pi / 10, 0.02f);
     const float cosine = std::cos(0.5f), t = (cosine - 0.5f) * 2;
-    const auto seen = Scene(scene).sample_light(LitPoint(Vec3{std::sin(0.5f), 0, cosine} * 5.0f), 0.5f, {0.5f, 0.5f});
+    const auto seen =
+        Scene(scene).lights().sample(LitPoint(Vec3{std::sin(0.5f), 0, cosine} * 5.0f), 0.5f, {0.5f, 0.5f});
     ASSERT_TRUE(seen);
     EXPECT_NEAR(seen->radiance.g, 2 * t * t * t * t / 25, 1e-4f);
 }
@@ -204,7 +206,7 @@ TEST(OlderPbrt, LaysTheSkyByLatitudeAndLongitude) {
                 const Vec3 direction = normalize({std::cos(phi), std::sin(phi), z});
                 const Ray ray{{}, direction};
                 SkyRadiance seen;
-                scene.look_at_sky({&ray, 1}, {&seen, 1});
+                scene.lights().look_at_sky({&ray, 1}, {&seen, 1});
                 EXPECT_NEAR(seen.radiance.r, 2 * 16 * float((z > 0 ? 0 : 4) + i + 1) / 128, 0.01f) << i << ' ' << z;
             }
     }
@@ -218,7 +220,8 @@ TEST(OlderPbrt, LaysGoniogramsByLatitudeAndLongitude) {
     for (int i = 0; i < 4; ++i)
         for (const float y : {1.0f, -1.0f}) {
             const float phi = (float(i) + 0.5f) * pi / 2;
-            const auto seen = scene.sample_light(LitPoint(Vec3{std::cos(phi), y, std::sin(phi)}), 0.5f, {0.5f, 0.5f});
+            const auto seen =
+                scene.lights().sample(LitPoint(Vec3{std::cos(phi), y, std::sin(phi)}), 0.5f, {0.5f, 0.5f});
             ASSERT_TRUE(seen);
             EXPECT_NEAR(seen->radiance.r, 4 * 16 * float((y > 0 ? 0 : 4) + i + 1) / 128 / 2, 0.02f);
         }

@@ -9,6 +9,7 @@
 #include "core/scene/bare_lights/bare_light.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/lamps/light_tree.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/both_ways.hpp"
@@ -101,7 +102,7 @@ Estimate flux_received(const Scene& scene, float radius) {
         Samples samples(5, i);
         const Vec3 outwards = sphere(samples.next_2d());
         const float choice = samples.next();
-        const auto sample = scene.sample_light(LitPoint(outwards * radius), choice, samples.next_2d());
+        const auto sample = scene.lights().sample(LitPoint(outwards * radius), choice, samples.next_2d());
         if (!sample) return 0.0;
         const double cosine = std::max(0.0f, -dot(sample->direction, outwards));
         return sample->radiance.g * cosine / sample->pdf * 4 * std::numbers::pi * radius * radius;
@@ -113,7 +114,7 @@ Estimate flux_emitted(const Scene& scene) {
         Samples samples(6, i);
         const float choice = samples.next();
         const Vec2 where = samples.next_2d();
-        const auto emission = scene.emit(choice, where, samples.next_2d());
+        const auto emission = scene.lights().emit(choice, where, samples.next_2d());
         return emission ? double{emission->flux.g} : 0.0;
     });
 }

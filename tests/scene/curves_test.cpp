@@ -11,6 +11,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/data/identity.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shapes/curves.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -202,14 +203,14 @@ TEST(Curves, ShineIntoTheSolidAngleThatRaysFind) {
         for (std::uint32_t i = 0; i < count; ++i) {
             Samples samples(5, i);
             const float choice = samples.next();
-            const auto lamp = scene.sample_light(LitPoint(from), choice, samples.next_2d());
+            const auto lamp = scene.lights().sample(LitPoint(from), choice, samples.next_2d());
             const bool seen =
                 lamp && !scene.occluded({from, lamp->direction, length(lamp->position - from) * (1 - 1e-3f)});
             const double angle = seen ? 1 / double{lamp->pdf} : 0;
             sampled += angle, square += angle * angle;
             const Vec3 way = sphere(samples.next_2d());
             const auto hit = scene.intersect({from, way});
-            if (hit && !is_black(scene.emission(scene.surface(*hit), -way))) found += 4 * pi_exactly;
+            if (hit && !is_black(scene.lights().emission(scene.surface(*hit), -way))) found += 4 * pi_exactly;
         }
         sampled /= count, found /= count;
         const double spread = std::sqrt(std::max(0.0, square / count - sampled * sampled) / count);

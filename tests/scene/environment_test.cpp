@@ -12,6 +12,7 @@
 #include "core/base/math/sky_layout.hpp"
 #include "core/scene/bare_lights/environment.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -272,9 +273,9 @@ TEST(ManyLights, AreFoundAtOnceAsOneByOne) {
                 from.emplace_back(sphere(samples.next_2d()), sphere(samples.next_2d()));
             }
             LightSamples found;
-            scene.sample_lights(from, choices, u, found);
+            scene.lights().sample(from, choices, u, found);
             for (std::size_t i = 0; i < lanes; ++i) {
-                const auto one = scene.sample_light(from[i], choices[i], u[i]);
+                const auto one = scene.lights().sample(from[i], choices[i], u[i]);
                 ASSERT_EQ(found.found[i] != 0, one.has_value());
                 if (one) {
                     ASSERT_EQ(found[i], *one);
@@ -303,7 +304,7 @@ TEST_P(Maps, LightAFloorAsMuchAsTheyShould) {
     const double expected =
         over_the_sphere(500,
                         [&](Vec3 d) {
-                            return d.y > 0 ? double{sky_only.environment(Ray{{0, 0, 0}, d}).r} * d.y : 0;
+                            return d.y > 0 ? double{sky_only.lights().environment(Ray{{0, 0, 0}, d}).r} * d.y : 0;
                         }) /
         std::numbers::pi;
     const double of_lamp = 400 * 4.0 / (20 * 20) / std::numbers::pi;  // nearly: it is far away
@@ -354,8 +355,8 @@ TEST(Environment, OfABlackMapIsNeverChosen) {
     data.environments.push_back({});
     data.environments[0].image = std::make_shared<const Image>(2, 1, std::vector<Rgb>(2));
     const Scene scene(data);
-    EXPECT_FALSE(scene.has_environment());
-    EXPECT_FALSE(scene.has_lamps());
+    EXPECT_FALSE(scene.lights().has_environment());
+    EXPECT_TRUE(scene.lights().empty());
 }
 
 }  // namespace

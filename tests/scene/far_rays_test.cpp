@@ -4,6 +4,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/transform.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -268,7 +269,7 @@ TEST(FarRays, ReachEveryPointOfALamp) {
                 Hit hit = of_triangle(samples, floor);
                 hit.geometry = 1;
                 const SurfacePoint point = scene.surface(hit);
-                const auto sample = scene.sample_light(LitPoint(point.position), samples.next(), samples.next_2d());
+                const auto sample = scene.lights().sample(LitPoint(point.position), samples.next(), samples.next_2d());
                 if (!sample) continue;
                 ++found;
                 hidden += scene.occluded(scene.ray_to(point, *sample));
@@ -326,7 +327,7 @@ Seen look_at(Vec3 at) {
             const auto hit = scene.intersect(ray);
             if (!hit) continue;
             const SurfacePoint point = scene.surface(*hit);
-            const auto light = scene.sample_light(LitPoint(point.position), choice, u);
+            const auto light = scene.lights().sample(LitPoint(point.position), choice, u);
             const bool behind =
                 light && (dot(light->direction, point.normal) > 0) == (dot(ray.direction, point.normal) > 0);
             if (!light || behind || scene.occluded(scene.ray_to(point, *light))) continue;

@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -175,8 +176,8 @@ TEST(Scene, RefusesQuestionsAboutSurfacesThatAreNotThere) {
 TEST(Scene, OfNothingIsEmpty) {
     const Scene scene(SceneData{});
     EXPECT_FALSE(scene.intersect({{0, 0, 0}, {0, 0, 1}}));
-    EXPECT_FALSE(scene.has_lamps());
-    EXPECT_FALSE(scene.has_environment());
+    EXPECT_TRUE(scene.lights().empty());
+    EXPECT_FALSE(scene.lights().has_environment());
 }
 
 }  // namespace

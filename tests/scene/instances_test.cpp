@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -351,7 +352,7 @@ TEST(Holes, ShapesOfNoMaterialAreNotThere) {
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->geometry, 1u);
     EXPECT_FALSE(scene.occluded({{0.5f, 1, 0.4f}, {0, -1, 0}, 1.5f}));
-    EXPECT_FALSE(scene.has_lamps());
+    EXPECT_TRUE(scene.lights().empty());
 }
 
 // A lamp with holes sends as much light by its points as by the rays that meet it.
@@ -365,7 +366,7 @@ TEST(Holes, OfALampShedNoLight) {
     constexpr std::uint32_t n = 1 << 16;
     for (std::uint32_t i = 0; i < n; ++i) {
         Samples samples(1, i);
-        if (const auto lamp = scene.sample_light(LitPoint({0, 0, 0}), 0, samples.next_2d()))
+        if (const auto lamp = scene.lights().sample(LitPoint({0, 0, 0}), 0, samples.next_2d()))
             by_points += lamp->radiance.r / lamp->pdf / n;
         by_rays += scene.occluded({{0, 0, 0}, sphere(samples.next_2d())}) ? 4 * std::numbers::pi / n : 0;
     }

@@ -6,6 +6,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -19,7 +20,7 @@ constexpr std::uint32_t many = 1 << 14;
 std::optional<LightSample> draw(const Scene& scene, Vec3 from, std::uint32_t i) {
     Samples samples(1, i);
     const float choice = samples.next();
-    return scene.sample_light(LitPoint(from), choice, samples.next_2d());
+    return scene.lights().sample(LitPoint(from), choice, samples.next_2d());
 }
 
 // The mean of 1/density is the solid angle that all lamps fill.
@@ -111,8 +112,9 @@ TEST(Lights, StateTheSameDensityForAPointHoweverItIsFound) {
         const auto hit = scene.intersect({from, lamp->direction});
         if (!hit) continue;
         const SurfacePoint end = scene.surface(*hit);
-        if (is_black(scene.emission(end, -lamp->direction)) || length(end.position - lamp->position) > 1e-3f) continue;
-        ASSERT_NEAR(scene.light_pdf(LitPoint(from), lamp->direction, end) / lamp->pdf, 1, 2e-2f);
+        if (is_black(scene.lights().emission(end, -lamp->direction)) || length(end.position - lamp->position) > 1e-3f)
+            continue;
+        ASSERT_NEAR(scene.lights().pdf(LitPoint(from), lamp->direction, end) / lamp->pdf, 1, 2e-2f);
         ++checked;
     }
     EXPECT_GT(checked, many / 3);
@@ -138,11 +140,11 @@ TEST(Lights, NeverChooseAConstantEnvironment) {
     SceneData data;
     data.environments.push_back({{1, 2, 3}});
     const Scene scene(data);
-    EXPECT_TRUE(scene.has_environment());
+    EXPECT_TRUE(scene.lights().has_environment());
     EXPECT_FALSE(draw(scene, {0, 0, 0}, 0));
-    EXPECT_EQ(scene.environment_pdf(Ray{{0, 0, 0}, {0, 0, 1}}), 0);
-    EXPECT_FALSE(scene.samples_environment());
-    EXPECT_EQ(scene.environment(Ray{{0, 0, 0}, {0, 0, 1}}), (Rgb{1, 2, 3}));
+    EXPECT_EQ(scene.lights().environment_pdf(Ray{{0, 0, 0}, {0, 0, 1}}), 0);
+    EXPECT_FALSE(scene.lights().samples_environment());
+    EXPECT_EQ(scene.lights().environment(Ray{{0, 0, 0}, {0, 0, 1}}), (Rgb{1, 2, 3}));
 }
 
 TEST(Lights, RuleOutOnlyRaysThatCannotMeetThem) {

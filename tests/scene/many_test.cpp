@@ -11,6 +11,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/scene/many_surfaces.hpp"
 
@@ -168,12 +169,12 @@ TEST_P(ManyLit, RaysAreThoseOfOne) {
     SceneData data = everything();
     add(data, GetParam().lamp, diffuse(data, 0)).emission = AreaEmission{{3, 2, 1}, GetParam().two_sided};
     const Scene scene(data);
-    ASSERT_TRUE(scene.only_flat_lamp());
+    ASSERT_TRUE(scene.lights().only_flat_lamp());
     for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power, Heuristic::automatic}) {
         std::size_t lit = 0;
         const std::size_t count = each_plain(scene, [&](Plain& plain) {
             for (std::size_t i = 0; i < plain.points.size(); ++i) plain.together.set_numbers(i, plain.numbers[i]);
-            const auto& rays = plain.together.look_at(*scene.only_flat_lamp(), heuristic);
+            const auto& rays = plain.together.look_at(*scene.lights().only_flat_lamp(), heuristic);
             for (std::size_t i = 0; i < plain.points.size(); ++i) {
                 const Gathering at{plain.points[i], plain.bsdfs[i], plain.outgoing[i], lobe::all};
                 const auto one = ray_to_lamp(scene, at, {0, plain.numbers[i]}, heuristic);
@@ -255,7 +256,7 @@ TEST(Many, StopsTellEachWalkWhatOneIsTold) {
                     EXPECT_EQ(parts(step.ray),
                               parts(Ray{one.point.origin_towards(sample->incoming), sample->incoming}));
                     EXPECT_EQ(step.from.position, one.point.position);
-                    if (!scene.only_flat_lamp()) {  // else nothing is chosen
+                    if (!scene.lights().only_flat_lamp()) {  // else nothing is chosen
                         EXPECT_EQ(step.from, lit_point(one));
                     }
                     EXPECT_EQ(step.inside, filling(one.bsdf, one.point, one.outgoing, sample->incoming, one.inside));

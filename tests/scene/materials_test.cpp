@@ -1,5 +1,6 @@
 // From materials as data to scattering at a point.
 #include "core/scene/surfaces/materials.hpp"
+#include "core/scene/lamps/lights.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -310,7 +311,7 @@ TEST(Textures, OfHolesAndLampsMayFollowPlaces) {
     const auto hit = [&](float x, float y) { return scene.intersect({{x, y, 3}, {0, 0, -1}}); };
     ASSERT_TRUE(hit(0.1f, 0.1f));
     EXPECT_FALSE(hit(0.5f, 0.1f));
-    EXPECT_EQ(scene.emission(scene.surface(*hit(0.5f, 0.5f)), {0, 0, 1}), (Rgb{2, 2, 2}));
+    EXPECT_EQ(scene.lights().emission(scene.surface(*hit(0.5f, 0.5f)), {0, 0, 1}), (Rgb{2, 2, 2}));
 }
 
 TEST(BumpMaps, OnBallsFollowLongitudeAndLatitude) {

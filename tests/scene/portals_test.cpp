@@ -9,6 +9,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/bare_lights/environment.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/both_ways.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -57,7 +58,7 @@ TEST(Portal, ShowsItsOwnSkyOnly) {
     add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 1));
     data.environments = {even_sky({1, 0, 0}, skylight(-2)), even_sky({0, 1, 0}, skylight(1))};
     const Scene scene(data);
-    const auto seen = [&](Vec3 from, Vec3 to) { return scene.environment(Ray{from, normalize(to - from)}); };
+    const auto seen = [&](Vec3 from, Vec3 to) { return scene.lights().environment(Ray{from, normalize(to - from)}); };
     EXPECT_EQ(seen({0, 1, 0}, {-1.5f, 2, 0}), (Rgb{1, 0, 0}));
     EXPECT_EQ(seen({0, 1, 0}, {1.5f, 2, 0}), (Rgb{0, 1, 0}));
     EXPECT_EQ(seen({0, 1, 0}, {0, 2, 0}), (Rgb{0, 0, 0}));
@@ -71,7 +72,7 @@ double mean_shown(const Scene& scene, int side, const auto& origin) {
         for (int j = 0; j < side; ++j) {
             const Vec3 d = cosine_hemisphere({(float(i) + 0.5f) / float(side), (float(j) + 0.5f) / float(side)});
             const Vec3 up{d.x, d.z, d.y};
-            mean += scene.environment(Ray{origin(up), up}).b / (double(side) * side);
+            mean += scene.lights().environment(Ray{origin(up), up}).b / (double(side) * side);
         }
     return mean;
 }
@@ -106,14 +107,14 @@ TEST(Portal, LightsAFloorWhereItsSkyIsAllThereIs) {
     add(data, quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}), diffuse(data, 1));
     data.environments = {map_of_sky(skylight(-1))};
     const Scene scene(data);
-    ASSERT_FALSE(scene.has_many_lamps());
+    ASSERT_FALSE(scene.lights().many());
     constexpr int n = 300;
     const double expected = mean_shown(scene, n, [](Vec3) { return Vec3{0, 0, 0}; });
     double sum = 0;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
             const Vec2 u{(float(i) + 0.5f) / n, (float(j) + 0.5f) / n};
-            if (const auto found = scene.sample_light(LitPoint({0, 0, 0}), 0, u))
+            if (const auto found = scene.lights().sample(LitPoint({0, 0, 0}), 0, u))
                 sum += found->radiance.b * std::max(0.0f, found->direction.y) / found->pdf / (double{n} * n);
         }
     EXPECT_NEAR(sum / std::numbers::pi / expected, 1, 0.01);
@@ -138,18 +139,18 @@ TEST(Portal, IsAskedByManyAsByOne) {
             rays.push_back({from.back().position, normalize(Vec3{0, 2, 0} - from.back().position)});
         }
         LightSamples found;
-        scene.sample_lights(from, choices, u, found);
+        scene.lights().sample(from, choices, u, found);
         std::array<SkyRadiance, lanes> seen;
-        scene.look_at_sky(rays, seen);
+        scene.lights().look_at_sky(rays, seen);
         for (std::size_t i = 0; i < lanes; ++i) {
-            const auto one = scene.sample_light(from[i], choices[i], u[i]);
+            const auto one = scene.lights().sample(from[i], choices[i], u[i]);
             ASSERT_EQ(found.found[i] != 0, one.has_value());
             if (one) {
                 EXPECT_EQ(found[i], *one);
-                EXPECT_EQ(one->pdf, scene.environment_pdf(Ray{from[i].position, one->direction}));
+                EXPECT_EQ(one->pdf, scene.lights().environment_pdf(Ray{from[i].position, one->direction}));
             }
-            EXPECT_EQ(seen[i].radiance, scene.environment(rays[i]));
-            EXPECT_EQ(seen[i].pdf, scene.environment_pdf(rays[i]));
+            EXPECT_EQ(seen[i].radiance, scene.lights().environment(rays[i]));
+            EXPECT_EQ(seen[i].pdf, scene.lights().environment_pdf(rays[i]));
         }
     }
 }
@@ -165,7 +166,7 @@ TEST(Portal, LetsPiTimesItsAreaTimesRadianceIn) {
         Samples samples(6, i);
         const float choice = samples.next();
         const Vec2 where = samples.next_2d();
-        const auto emission = scene.emit(choice, where, samples.next_2d());
+        const auto emission = scene.lights().emit(choice, where, samples.next_2d());
         ASSERT_TRUE(emission);
         sum += emission->flux.g;
         if (!(emission->flux.g > 0)) continue;
@@ -188,7 +189,7 @@ TEST(Portal, LetsInWhatItShowsOfAMap) {
         Samples samples(6, i);
         const float choice = samples.next();
         const Vec2 where = samples.next_2d();
-        const auto emission = scene.emit(choice, where, samples.next_2d());
+        const auto emission = scene.lights().emit(choice, where, samples.next_2d());
         sum += emission ? emission->flux.b : 0;
     }
     EXPECT_NEAR(sum / n / (expected * std::numbers::pi * 2), 1, 0.01);

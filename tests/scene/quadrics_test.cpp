@@ -11,6 +11,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/data/identity.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/shapes/placed_quadric.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -143,7 +144,7 @@ TEST(Quadrics, LightAFloorAsTheFormFactorOfADiskSays) {
     for (std::uint32_t i = 0; i < count; ++i) {
         Samples samples(2, i);
         const float choice = samples.next();
-        if (const auto lamp = scene.sample_light(LitPoint(below), choice, samples.next_2d()))
+        if (const auto lamp = scene.lights().sample(LitPoint(below), choice, samples.next_2d()))
             sum += lamp->radiance.g * lamp->direction.z / lamp->pdf;
     }
     const double factor = double{radius} * radius / (double{radius} * radius + double{height} * height);
@@ -161,14 +162,14 @@ TEST(Quadrics, FillTheSolidAngleThatRaysFind) {
                 for (std::uint32_t i = 0; i < count; ++i) {
                     Samples samples(5, i);
                     const float choice = samples.next();
-                    const auto lamp = scene.sample_light(LitPoint(from), choice, samples.next_2d());
+                    const auto lamp = scene.lights().sample(LitPoint(from), choice, samples.next_2d());
                     const bool seen =
                         lamp && !scene.occluded({from, lamp->direction, length(lamp->position - from) * (1 - 1e-4f)});
                     const double angle = seen ? 1 / double{lamp->pdf} : 0;
                     sampled += angle, square += angle * angle;
                     const Vec3 way = sphere(samples.next_2d());
                     const auto hit = scene.intersect({from, way});
-                    if (hit && !is_black(scene.emission(scene.surface(*hit), -way))) found += 4 * pi_exactly;
+                    if (hit && !is_black(scene.lights().emission(scene.surface(*hit), -way))) found += 4 * pi_exactly;
                 }
                 sampled /= count, found /= count;
                 const double spread = std::sqrt(std::max(0.0, square / count - sampled * sampled) / count);
@@ -186,7 +187,7 @@ TEST(Quadrics, StateTheSameDensityForAPointHoweverItIsFound) {
             const LitPoint from(in_ball(i));
             Samples samples(6, i);
             const float choice = samples.next();
-            const auto lamp = scene.sample_light(from, choice, samples.next_2d());
+            const auto lamp = scene.lights().sample(from, choice, samples.next_2d());
             if (!lamp) continue;
             const auto hit = scene.intersect({from.position, lamp->direction});
             if (!hit) continue;  // its rim
@@ -194,7 +195,7 @@ TEST(Quadrics, StateTheSameDensityForAPointHoweverItIsFound) {
             const float grazing = std::fabs(dot(on.normal, lamp->direction));
             if (length(on.position - lamp->position) > 1e-4f || grazing < 0.02f) continue;
             ++compared;
-            ASSERT_NEAR(scene.light_pdf(from, lamp->direction, on) / lamp->pdf, 1, 2e-2) << name;
+            ASSERT_NEAR(scene.lights().pdf(from, lamp->direction, on) / lamp->pdf, 1, 2e-2) << name;
         }
         EXPECT_GT(compared, 500u) << name;
     }
@@ -212,13 +213,13 @@ TEST(Quadrics, AreFurnacesFromInside) {
         for (std::uint32_t i = 0; i < count; ++i) {
             Samples samples(7, i);
             const float choice = samples.next();
-            const auto lamp = scene.sample_light(LitPoint(at), choice, samples.next_2d());
+            const auto lamp = scene.lights().sample(LitPoint(at), choice, samples.next_2d());
             if (lamp) sum += std::max(0.0f, lamp->direction.z) / lamp->pdf;
             if (i < 1000) {
                 const Vec3 way = sphere(samples.next_2d());
                 const auto hit = scene.intersect({at, way});
                 ASSERT_TRUE(hit);
-                ASSERT_EQ(scene.emission(scene.surface(*hit), -way).g, 1);
+                ASSERT_EQ(scene.lights().emission(scene.surface(*hit), -way).g, 1);
             }
         }
         EXPECT_NEAR(sum / count / pi_exactly, 1, 0.02);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_media.hpp"
 #include "tests/support/small_scenes.hpp"
@@ -71,32 +72,8 @@ std::vector<Read> reads_of_geometry() {
 std::vector<Read> reads_of_light() {
     const SceneParts lamps = ScenePart::lamps;
     const Ray ray{{0, 0, 5}, {0, 0, 1}};
-    const LitPoint from(Vec3{0, 0, 2});
-    return {{"emission", lamps,
-             [](const Scene& scene) {
-                 scene.emission({}, {0, 0, 1});
-             }},
-            {"shines", lamps, [](const Scene& scene) { scene.shines({}); }},
-            {"environment", lamps, [=](const Scene& scene) { scene.environment(ray); }},
-            {"has_environment", lamps, [](const Scene& scene) { scene.has_environment(); }},
-            {"samples_environment", lamps, [](const Scene& scene) { scene.samples_environment(); }},
-            {"environment_pdf", lamps, [=](const Scene& scene) { scene.environment_pdf(ray); }},
-            {"environment_group", lamps, [](const Scene& scene) { scene.environment_group(); }},
-            {"sun", lamps,
-             [](const Scene& scene) {
-                 scene.sun({0, 0, 1});
-             }},
-            {"has_suns", lamps, [](const Scene& scene) { scene.has_suns(); }},
-            {"sample_light", lamps,
-             [=](const Scene& scene) {
-                 scene.sample_light(from, 0.5f, {0.5f, 0.5f});
-             }},
-            {"only_flat_lamp", lamps, [](const Scene& scene) { scene.only_flat_lamp(); }},
-            {"has_lamps", lamps, [](const Scene& scene) { scene.has_lamps(); }},
-            {"has_many_lamps", lamps, [](const Scene& scene) { scene.has_many_lamps(); }},
+    return {{"lights", lamps, [](const Scene& scene) { scene.lights(); }},
             {"may_shine", lamps, [=](const Scene& scene) { scene.may_shine(ray); }},
-            {"emit", lamps, [](const Scene& scene) { scene.emit(0.5f, {}, {}); }},
-            {"groups", lamps, [](const Scene& scene) { scene.groups(); }},
             {"lobes", ScenePart::materials, [](const Scene& scene) { scene.lobes({}); }},
             {"bsdf", ScenePart::materials, [](const Scene& scene) { scene.bsdf({}); }},
             {"materials", ScenePart::materials | ScenePart::names, [](const Scene& scene) { scene.all<Material>(); }},
@@ -168,8 +145,8 @@ TEST(SceneView, SaysWhatIsMissingAndWhatWasDeclared) {
 TEST(SceneView, SharesLampsWhereTheSameAreLookedFor) {
     const Scene scene(ball_under_a_lamp());
     const Scene view(scene, SceneView{.parts = scene_of_light});
-    const auto whole = scene.sample_light(LitPoint(Vec3{0, 0, 2}), 0.5f, {}),
-               seen = view.sample_light(LitPoint(Vec3{0, 0, 2}), 0.5f, {});
+    const auto whole = scene.lights().sample(LitPoint(Vec3{0, 0, 2}), 0.5f, {}),
+               seen = view.lights().sample(LitPoint(Vec3{0, 0, 2}), 0.5f, {});
     ASSERT_TRUE(whole && seen);
     EXPECT_EQ(whole->radiance, seen->radiance);
 }

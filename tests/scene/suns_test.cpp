@@ -8,6 +8,7 @@
 #include "core/base/math/samples.hpp"
 #include "core/base/math/sampling.hpp"
 #include "core/scene/direct_light.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/support/small_scenes.hpp"
 
@@ -115,18 +116,18 @@ TEST(Sun, IsMetByRaysIntoItsConeAlone) {
     const float half_angle = 0.0046531f;
     data.lights.push_back(sun({0, 0, 1}, 1, half_angle));
     const Scene scene(data);
-    EXPECT_TRUE(scene.has_suns());
-    EXPECT_FALSE(scene.has_environment());
+    EXPECT_TRUE(scene.lights().has_suns());
+    EXPECT_FALSE(scene.lights().has_environment());
     const double solid_angle = turn * 2 * std::pow(std::sin(double{half_angle} / 2), 2);
     for (const float part : {0.0f, 0.7f, 0.999f}) {
-        const auto seen = scene.sun({std::sin(part * half_angle), 0, std::cos(part * half_angle)});
+        const auto seen = scene.lights().sun({std::sin(part * half_angle), 0, std::cos(part * half_angle)});
         ASSERT_TRUE(seen) << part;
         EXPECT_NEAR(double{seen->light.radiance.g} * std::numbers::pi * std::pow(std::sin(double{half_angle}), 2), 1,
                     1e-4);
         EXPECT_NEAR(double{seen->light.pdf} * solid_angle, 1, 1e-4);
     }
-    EXPECT_FALSE(scene.sun({0, std::sin(1.001f * half_angle), std::cos(1.001f * half_angle)}));
-    EXPECT_FALSE(scene.sun({0, 0, -1}));
+    EXPECT_FALSE(scene.lights().sun({0, std::sin(1.001f * half_angle), std::cos(1.001f * half_angle)}));
+    EXPECT_FALSE(scene.lights().sun({0, 0, -1}));
     const Vec3 within{0, std::sin(0.5f * half_angle), std::cos(0.5f * half_angle)};
     EXPECT_TRUE(scene.may_shine({{0, 1, 0}, within}));
     EXPECT_FALSE(scene.may_shine({{0, 1, 0}, {1, 0, 0}}));
@@ -136,8 +137,8 @@ TEST(Sun, OfNoAngleIsMetByNoRay) {
     SceneData data = white_plain();
     data.lights.push_back(sun({0, 0, 1}, 1, 0));
     const Scene scene(data);
-    EXPECT_FALSE(scene.has_suns());
-    EXPECT_FALSE(scene.sun({0, 0, 1}));
+    EXPECT_FALSE(scene.lights().has_suns());
+    EXPECT_FALSE(scene.lights().sun({0, 0, 1}));
 }
 
 TEST(Sun, IsSampledWithTheDensityThatItSays) {
@@ -154,16 +155,16 @@ TEST(Sun, IsSampledWithTheDensityThatItSays) {
     for (std::uint32_t i = 0; i < samples; ++i) {
         Samples numbers(9, i);
         const float choice = numbers.next();
-        const auto lamp = scene.sample_light(LitPoint({0, 1, 0}), choice, numbers.next_2d());
+        const auto lamp = scene.lights().sample(LitPoint({0, 1, 0}), choice, numbers.next_2d());
         ASSERT_TRUE(lamp);
-        const auto seen = scene.sun(lamp->direction);
+        const auto seen = scene.lights().sun(lamp->direction);
         ASSERT_TRUE(seen);
         EXPECT_FLOAT_EQ(seen->light.pdf, lamp->pdf);
         EXPECT_FLOAT_EQ(seen->light.radiance.g, lamp->radiance.g);
         EXPECT_FALSE(lamp->bare);
         counted[std::size_t(cell(lamp->direction))] += 1;
         const Vec3 anywhere = sphere(numbers.next_2d());
-        if (const auto met = scene.sun(anywhere))
+        if (const auto met = scene.lights().sun(anywhere))
             expected[std::size_t(cell(anywhere))] += double{met->light.pdf} * 2 * turn;
     }
     double total = 0;
@@ -194,13 +195,13 @@ TEST(Suns, AreOfTheirOwnGroups) {
     data.lights.push_back(sun({0, 0, 1}, 1, 0.1f));
     std::get<DirectionalLight>(data.lights[1]).label.group = 1;
     const Scene whole(data), apart(whole, {all_groups, true});
-    EXPECT_EQ(whole.sun({0, 1, 0})->group, 0u);
-    EXPECT_EQ(whole.sun({0, 0, 1})->group, 0u);
-    EXPECT_EQ(apart.sun({0, 1, 0})->group, 0u);
-    EXPECT_EQ(apart.sun({0, 0, 1})->group, 1u);
+    EXPECT_EQ(whole.lights().sun({0, 1, 0})->group, 0u);
+    EXPECT_EQ(whole.lights().sun({0, 0, 1})->group, 0u);
+    EXPECT_EQ(apart.lights().sun({0, 1, 0})->group, 0u);
+    EXPECT_EQ(apart.lights().sun({0, 0, 1})->group, 1u);
     const Scene without(whole, {GroupSet{2}, true});
-    EXPECT_FALSE(without.sun({0, 1, 0}));
-    EXPECT_TRUE(without.sun({0, 0, 1}));
+    EXPECT_FALSE(without.lights().sun({0, 1, 0}));
+    EXPECT_TRUE(without.lights().sun({0, 0, 1}));
 }
 
 TEST(Power, OfASunIsWhatItsConeSendsIntoTheBallAroundTheScene) {
@@ -216,7 +217,7 @@ TEST(Power, OfASunIsWhatItsConeSendsIntoTheBallAroundTheScene) {
         Samples numbers(3, i);
         const float choice = numbers.next();
         const Vec2 position = numbers.next_2d();
-        const auto emitted = scene.emit(choice, position, numbers.next_2d());
+        const auto emitted = scene.lights().emit(choice, position, numbers.next_2d());
         ASSERT_TRUE(emitted);
         ASSERT_LE(-emitted->direction.y, 1);
         ASSERT_GE(-emitted->direction.y, std::cos(half_angle) - 1e-6f);

@@ -2,7 +2,7 @@
 #include "core/base/math/box.hpp"
 #include "core/base/math/frame.hpp"
 #include "core/base/math/sampling.hpp"
-#include "core/scene/lamps/area_lamps.hpp"
+#include "core/scene/lamps/lamp_kinds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,16 +18,15 @@ Box box_of(const Curves& curves) {
 
 }  // namespace
 
-void AreaLamps::add(std::uint32_t shape, const Curves* curves) {
+LampBall ball_around(const Curves* curves) {
     const Box box = box_of(*curves);
-    balls_.add(box.center(), length(box.size()) / 2);
-    add_source(shape, 1, 0);
+    return {box.center(), length(box.size()) / 2};
 }
 
-float AreaLamps::area(const Source&, const Curves* curves) const { return float(curves->area()); }
+float area_of(const Curves* curves) { return float(curves->area()); }
 
 // Each segment as often as any other.
-AreaLamps::Start AreaLamps::start(const Lamp&, const Curves* curves, Vec2 u) const {
+LampStart start_on(const AreaLamp&, const Curves* curves, Vec2 u) {
     const auto count = std::uint32_t(curves->pieces());
     const float chosen = u.x * float(count);
     const std::uint32_t segment = std::min(std::uint32_t(chosen), count - 1);
@@ -41,27 +40,34 @@ AreaLamps::Start AreaLamps::start(const Lamp&, const Curves* curves, Vec2 u) con
     return {{at.position, at.normal, segment, chosen - float(segment), name}, float(count) * at.stretch};
 }
 
-AreaLamps::EvenLamp AreaLamps::even(const Lamp&, const Curves*) const { return {}; }
+EvenLamp even_on(const AreaLamp&, const Curves*) { return {}; }
 
-std::optional<LightSample> AreaLamps::sample(const Lamp& lamp, const Curves* curves, Vec3 from, Vec2 u) const {
-    const Source& source = lamp.source;
-    const auto [point, area] = start(lamp, curves, u);
-    const Vec3 way = point.position - from;
+std::optional<LightSample> sample_on(const LampLook& look, const AreaLamp& lamp, const Curves* curves) {
+    const LampSource& source = lamp.source;
+    const auto [point, area] = start_on(lamp, curves, look.u);
+    const Vec3 way = point.position - look.from;
     const float way2 = length_squared(way);
     if (!(way2 > 0)) return {};
     const Vec3 direction = way / std::sqrt(way2);
     const float cosine = -dot(point.normal, direction);  // of the outside, which alone is seen
-    if (!(cosine > 1e-6f) || !is_there(source, point)) return {};
+    if (!(cosine > 1e-6f) || !look.radiance.is_there(source, point)) return {};
     const float pdf = way2 / (area * cosine);
     if (!(pdf > 0) || !std::isfinite(pdf)) return {};
-    const float offset = shading_.point(source.shape, point.primitive, point.u, point.v).offset;
+    const float offset = look.radiance.shading().point(source.shape, point.primitive, point.u, point.v).offset;
     const Vec3 end = off_surface(point.position, point.normal, offset, -direction);
-    return LightSample{end, direction, radiance_at(source, point), pdf, source.unseen, false, source.group};
+    return LightSample{end, direction, look.radiance.at(source, point), pdf, source.unseen, false, source.group};
 }
 
-LightBounds AreaLamps::bounds(const Lamp& one, const Curves* curves, float radiance) const {
+LightBounds bounds_of(const AreaLamp& one, const Curves* curves, float radiance) {
     const Box box = box_of(*curves);
     return {box.low, box.high, {0, 0, 1}, -1, 0, radiance * one.area / 4, false};
+}
+
+float density(const Curves* curves, const LampFound& found) {
+    const OnCurve middle = curves->at(found.on.primitive, found.on.u);
+    const float area = float(curves->pieces()) * surface_of(middle, found.on.v).stretch;
+    const float cosine = std::max(1e-6f, std::fabs(dot(found.on.normal, found.direction)));
+    return area > 0 ? found.way2() / (area * cosine) : 0;
 }
 
 }  // namespace lightnet

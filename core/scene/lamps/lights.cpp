@@ -11,16 +11,7 @@
 #include <variant>
 
 namespace lightnet {
-namespace {
-
-// The place of `choice` within a share of [0,1) that begins at `start`.
-float within(float choice, float start, float share) {
-    return std::clamp((choice - start) / share, 0.0f, 0x1.fffffep-1f);
-}
-
-}  // namespace
-
-Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around, const Wanted& wanted)
+Lights::Lights(const SceneData& data, const Shading& shading, const BallAround& around, const Wanted& wanted)
     : around_(around),
       groups_(wanted.apart ? std::max<std::size_t>(1, data.groups.size()) : 1),
       environment_group_(groups_ > 1 ? data.environment_group : 0),
@@ -32,19 +23,7 @@ Lights::Lights(const SceneData& data, const Shading& shading, const Ball& around
                 if (is_wanted(one.label.group)) add(one, SceneMotion::steps_after(data.motion.lights, i));
             },
             data.lights[i]);
-    std::vector<double> light_of_maps;
-    for (const auto& each : data.environments) {
-        if (!is_wanted(data.environment_group)) break;
-        const Environment& environment = *environments_.emplace_back(environment_of(each));
-        has_environment_ |= !is_black(environment.total());
-        has_portals_ |= environment.portal().has_value();
-        const bool everywhere = !environment.has_map() && !environment.portal();
-        if (everywhere) constant_ += each.radiance;
-        if (everywhere || is_black(environment.total())) continue;
-        maps_.push_back(std::uint32_t(environments_.size() - 1));
-        light_of_maps.push_back(luminance(environment.total()));
-    }
-    prefix_cdf(light_of_maps, map_ends_);
+    if (is_wanted(data.environment_group)) skies_ = Skies(data, environment_group_);
     build_tree();
 
     std::vector<double> by_power(count());
@@ -85,14 +64,14 @@ void Lights::build_tree() {
         std::size_t(std::count_if(bounds.begin(), bounds.end(), [](const auto& b) { return b.intensity > 0; }));
     tree_ = LightTree(bounds);
 
-    const std::size_t beside = far_.size() + (maps_.empty() ? 0 : 1);
+    const std::size_t beside = far_.size() + (skies_.sampled() ? 1 : 0);
     choices_ = in_tree + beside;
     for (std::size_t i = 0; choices_ == 1 && i < lamps_.size(); ++i)
         if (bounds[i].intensity > 0) only_lamp_ = i;
     share_of_tree_ = in_tree ? 1 / float(1 + beside) : 0;
     share_of_far_ = beside ? (1 - share_of_tree_) / float(beside) : 0;
     if (!only_lamp_) return;
-    const AreaLamps::EvenLamp only = lamps_.even(*only_lamp_);
+    const EvenLamp only = lamps_.even(*only_lamp_);
     if (const auto* flat = std::get_if<FlatLamp>(&only)) only_flat_lamp_ = *flat;
 }
 
@@ -125,52 +104,7 @@ std::optional<LightSample> Lights::from_beside(Vec3 from, float choice, Vec2 u) 
 std::optional<LightSample> Lights::from_infinity(Vec3 from, float choice, Vec2 u) const {
     const auto light = std::size_t(std::max(0.0f, choice));
     if (light < far_.size()) return far_.sample(light, u);
-    return maps_.empty() ? std::nullopt : from_map(from, within(choice, float(far_.size()), 1), u);
-}
-
-LightSample Lights::from_only_map(const SkyRadiance& seen) const {
-    return {{}, seen.direction, constant_ + seen.radiance, seen.pdf, false, true, environment_group_};
-}
-
-std::optional<LightSample> Lights::from_map(Vec3 from, float choice, Vec2 u) const {
-    if (has_portals_) return from_skies(from, choice, u);
-    const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
-    const SkyRadiance seen = environments_[maps_[map_index]]->sample(u);
-    if (maps_.size() == 1) return from_only_map(seen);
-    float density = share_of(map_ends_, map_index) * seen.pdf;
-    Rgb radiance = constant_ + seen.radiance;
-    for (std::size_t i = 0; i < maps_.size(); ++i) {
-        if (i == map_index) continue;
-        const SkyRadiance other = environments_[maps_[i]]->look(seen.direction);
-        density += share_of(map_ends_, i) * other.pdf;
-        radiance += other.radiance;
-    }
-    return LightSample{{}, seen.direction, radiance, density, false, true, environment_group_};
-}
-
-// Half of the directions to a map behind a portal go by the map, the others to the portal.
-// DECISIONS: portals-are-all-there-is
-std::optional<LightSample> Lights::from_skies(Vec3 from, float choice, Vec2 u) const {
-    const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
-    const Environment& sky = *environments_[maps_[map_index]];
-    const auto& portal = sky.portal();
-    // not by `choice`, which is none where there is nothing else to choose from
-    const bool half = portal && sky.has_map(), first_half = u.x < 0.5f, to_portal = portal && (!half || first_half);
-    if (half) u.x = within(u.x, first_half ? 0 : 0.5f, 0.5f);
-    const Vec3 direction = to_portal ? normalize(portal->at(u) - from) : sky.sample(u).direction;
-    const Ray ray{from, direction};
-    float density = 0;
-    for (std::size_t i = 0; i < maps_.size(); ++i) density += share_of(map_ends_, i) * density_of_sky(i, ray);
-    const Rgb radiance = environment(ray);
-    if (!(density > 0) || is_black(radiance)) return {};
-    return LightSample{{}, direction, radiance, density, false, true, environment_group_};
-}
-
-float Lights::density_of_sky(std::size_t map, const Ray& ray) const {
-    const Environment& sky = *environments_[maps_[map]];
-    if (!sky.portal()) return sky.pdf(ray.direction);
-    const float through = sky.portal()->density(ray.origin, ray.direction);
-    return sky.has_map() ? 0.5f * (through + sky.pdf(ray.direction)) : through;
+    return skies_.sampled() ? skies_.sample(from, within(choice, float(far_.size()), 1), u) : std::nullopt;
 }
 
 float Lights::place_in_tree(float choice) const {
@@ -179,7 +113,7 @@ float Lights::place_in_tree(float choice) const {
 
 // As sample() goes.
 bool Lights::takes_only_map(float choice) const {
-    if (maps_.size() != 1 || has_portals_ || takes_tree(choice)) return false;
+    if (!skies_.one_map() || takes_tree(choice)) return false;
     return (choice - share_of_tree_) / share_of_far_ >= float(far_.size());
 }
 
@@ -251,7 +185,7 @@ void Lights::sample_chosen(const PointsAsked& some, std::span<const LightChoice>
         const auto who = some.who.empty() ? static_cast<std::uint32_t>(k) : some.who[k];
         const LampAsked asked{who, some.from[k].position, some.u[k], one.chance};
         const bool shape = one.chance > 0 && one.light < lamps_.size();
-        const AreaLamps::EvenLamp* known = shape ? lamps_.known(one.light) : nullptr;
+        const EvenLamp* known = shape ? lamps_.known(one.light) : nullptr;
         if (const auto* flat = std::get_if<FlatLamp>(known))
             on_flat.add(asked, *flat);
         else if (const auto* ball = std::get_if<BallLamp>(known))
@@ -265,9 +199,9 @@ void Lights::sample_chosen(const PointsAsked& some, std::span<const LightChoice>
 
 void Lights::sample_map(const PointsAsked& some, LightSamples& samples) const {
     std::array<SkyRadiance, lanes> seen;
-    environments_[maps_[0]]->sample(some.u, seen);
+    skies_.sample(some.u, seen);
     for (std::size_t k = 0; k < some.u.size(); ++k) {
-        LightSample found = from_only_map(seen[k]);
+        LightSample found = skies_.sampled_as(seen[k]);
         found.pdf *= share_of_far_;
         samples.set(some.who[k], found);
     }
@@ -292,32 +226,9 @@ void Lights::pdfs(std::span<const LampMet> met, std::span<float> pdfs) const {
     for (std::size_t i = 0; i < met.size(); ++i) pdfs[i] *= met[i].density;
 }
 
-float Lights::environment_pdf(const Ray& ray) const {
-    float density = 0;
-    for (std::size_t i = 0; i < maps_.size(); ++i) density += share_of(map_ends_, i) * density_of_sky(i, ray);
-    return density * share_of_far_;
-}
-
-Rgb Lights::environment(const Ray& ray) const {
-    Rgb sum = constant_;
-    for (const auto map : maps_)
-        if (environments_[map]->shows(ray)) sum += environments_[map]->radiance(ray.direction);
-    return sum;
-}
-
 void Lights::look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const {
-    if (maps_.size() == 1 && !has_portals_) {
-        std::array<Vec3, lanes> directions;
-        for (std::size_t i = 0; i < rays.size(); ++i) directions[i] = rays[i].direction;
-        environments_[maps_[0]]->look(std::span(directions).first(rays.size()), seen);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            seen[i].radiance = constant_ + seen[i].radiance;
-            seen[i].pdf = share_of(map_ends_, 0) * seen[i].pdf * share_of_far_;
-        }
-        return;
-    }
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        seen[i] = {rays[i].direction, environment(rays[i]), environment_pdf(rays[i])};
+    skies_.look(rays, seen);
+    for (std::size_t i = 0; i < rays.size(); ++i) seen[i].pdf *= share_of_far_;
 }
 
 std::optional<SeenSun> Lights::sun(Vec3 direction) const {
@@ -327,9 +238,7 @@ std::optional<SeenSun> Lights::sun(Vec3 direction) const {
 }
 
 std::size_t Lights::memory() const {
-    std::size_t bytes = lamps_.memory() + tree_.memory() + power_ends_.size() * sizeof(float);
-    for (const auto& environment : environments_) bytes += environment->memory();
-    return bytes;
+    return lamps_.memory() + tree_.memory() + power_ends_.size() * sizeof(float) + skies_.memory();
 }
 
 }  // namespace lightnet

@@ -9,7 +9,6 @@
 
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
-#include "core/scene/bare_lights/environment.hpp"
 #include "core/scene/bare_lights/light_sample.hpp"
 #include "core/scene/bare_lights/moving_light.hpp"
 #include "core/scene/bare_lights/suns.hpp"
@@ -18,6 +17,7 @@
 #include "core/scene/lamps/lamp_met.hpp"
 #include "core/scene/lamps/light_tree.hpp"
 #include "core/scene/lamps/lit_point.hpp"
+#include "core/scene/lamps/skies.hpp"
 #include "core/scene/shapes/ray.hpp"
 #include "core/scene/surfaces/shading.hpp"
 #include "core/scene/surfaces/surface.hpp"
@@ -30,18 +30,13 @@ namespace lightnet {
 /// through a portal, which is sampled as a map is, by its area. Any thread may ask.
 class Lights {
 public:
-    /// A ball around all shapes.
-    struct Ball {
-        Vec3 center;
-        float radius = 1;
-    };
     /// Which lamps, and whether their groups are told apart; else all are of group 0.
     struct Wanted {
         GroupSet groups = all_groups;
         bool apart = false;
     };
     /// Looks at data and shading while it lives.
-    Lights(const SceneData& data, const Shading& shading, const Ball& around, const Wanted& wanted);
+    Lights(const SceneData& data, const Shading& shading, const BallAround& around, const Wanted& wanted);
 
     /// How many are told apart.
     std::size_t groups() const { return groups_; }
@@ -68,18 +63,18 @@ public:
     std::optional<LampMet> met(const LitPoint& from, Vec3 direction, const SurfacePoint& on) const;
     void pdfs(std::span<const LampMet> met, std::span<float> pdfs) const;
     /// Density with which sample() finds the environment along a ray.
-    float environment_pdf(const Ray& ray) const;
+    float environment_pdf(const Ray& ray) const { return skies_.pdf(ray) * share_of_far_; }
     /// Does sample() choose the environment at all?
-    bool samples_environment() const { return !maps_.empty(); }
+    bool samples_environment() const { return skies_.sampled(); }
 
     /// Radiance that a point of a surface emits into `direction`.
     Rgb emission(const SurfacePoint& point, Vec3 direction) const { return lamps_.radiance(point, direction); }
     bool shines(std::uint32_t shape) const { return lamps_.shines(shape); }
     /// Radiance of all environments along a ray that meets nothing.
-    Rgb environment(const Ray& ray) const;
+    Rgb environment(const Ray& ray) const { return skies_.radiance(ray); }
     /// Both of up to `lanes` rays: radiance, and density with which sample() finds their directions.
     void look_at_sky(std::span<const Ray> rays, std::span<SkyRadiance> seen) const;
-    bool has_environment() const { return has_environment_; }
+    bool has_environment() const { return skies_.shine(); }
     /// The sun in that direction, and density with which sample() finds it. None: there is none, or of one direction
     /// only, which no ray meets.
     std::optional<SeenSun> sun(Vec3 direction) const;
@@ -89,12 +84,12 @@ public:
 
     /// Light leaving one of all lights, chosen by power; what comes from infinity goes into the ball around the scene.
     /// None: nothing leaves by this sample.
-    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time) const;
+    std::optional<Emission> emit(float choice, Vec2 position_sample, Vec2 direction_sample, ShutterTime time = 0) const;
     /// All that is emitted, W: by lamps, nearly where they are textured; from infinity, into that ball.
     Rgb power() const;
 
     /// Lamps (see AreaLamps), bare lights, suns and environments.
-    std::size_t count() const { return lamps_.size() + near_.size() + far_.size() + environments_.size(); }
+    std::size_t count() const { return lamps_.size() + near_.size() + far_.size() + skies_.size(); }
     std::size_t memory() const;
 
 private:
@@ -107,9 +102,6 @@ private:
     void add(const L& light, std::span<const BareLight> later);
     std::optional<LightSample> from_beside(Vec3 from, float choice, Vec2 u) const;
     std::optional<LightSample> from_infinity(Vec3 from, float choice, Vec2 u) const;
-    std::optional<LightSample> from_map(Vec3 from, float choice, Vec2 u) const;
-    std::optional<LightSample> from_skies(Vec3 from, float choice, Vec2 u) const;
-    float density_of_sky(std::size_t map, const Ray& ray) const;
     bool takes_tree(float choice) const { return share_of_tree_ == 1 || choice < share_of_tree_; }
     float place_in_tree(float choice) const;
     bool takes_only_map(float choice) const;
@@ -118,26 +110,16 @@ private:
     void sample_tree(const PointsAsked& some, LightSamples& samples) const;
     void sample_chosen(const PointsAsked& some, std::span<const LightChoice> chosen, LightSamples& samples) const;
     void sample_map(const PointsAsked& some, LightSamples& samples) const;
-    LightSample from_only_map(const SkyRadiance& seen) const;
-    Emission from_sky(const Environment& environment, Vec2 position_sample, Vec2 direction_sample) const;
-    Emission through_portal(const Portal& portal, Vec3 direction, Rgb irradiance, Vec2 position_sample) const;
-    Emission through_ball(Vec3 direction, Rgb irradiance, Vec2 position_sample) const;
-
     std::uint32_t group(const LampLabel& label) const { return groups_ > 1 ? label.group : 0; }
 
-    Ball around_;
+    BallAround around_;
     std::size_t groups_;
     std::uint32_t environment_group_;
     AreaLamps lamps_;
     std::vector<NearLight> near_;
     Suns far_;
-    std::vector<std::shared_ptr<const Environment>> environments_;
-    std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled, as they have a map or a portal
-    std::vector<float> map_ends_;      // share of the light of maps up to and with each
-    LightTree tree_;                   // over lamps, then over what is near
-    Rgb constant_;                     // sum of environments without a map or a portal
-    bool has_portals_ = false;
-    bool has_environment_ = false;
+    Skies skies_;
+    LightTree tree_;                              // over lamps, then over what is near
     std::size_t choices_ = 0;                     // lights that sample() chooses from
     std::optional<std::size_t> only_lamp_;        // there is nothing else to choose from
     std::optional<FlatLamp> only_flat_lamp_;      // the same

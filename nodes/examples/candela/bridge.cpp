@@ -1,5 +1,6 @@
 // Introduces the library Candela, which stays as it is, to lightnet: once for all of its classes, then a line for each.
 #include "core/network/light/wrap.hpp"
+#include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/surface_lookup.hpp"
 #include "nodes/examples/candela/candela.hpp"
@@ -23,7 +24,7 @@ candela::Spot spot_of(const Scene& scene, const SurfacePoint& point, Vec3 outgoi
     spot.paint = theirs(bsdf.evaluate(normal, normal, lobe::rough) * pi);
     if (const auto mirrored = bsdf.sample(outgoing, 0, {}, lobe::specular))
         if (dot(mirrored->incoming, normal) > 0) spot.gloss = theirs(mirrored->weight);
-    spot.shine = theirs(scene.emission(point, outgoing));
+    spot.shine = theirs(scene.lights().emission(point, outgoing));
     return spot;
 }
 
@@ -44,14 +45,14 @@ public:
     }
     candela::Colour sky(const candela::Vec& from, const candela::Vec& towards) override {
         const Vec3 direction = ours(towards);
-        const auto sun = scene_.sun(direction);
-        const Rgb around = scene_.environment({ours(from), direction});
+        const auto sun = scene_.lights().sun(direction);
+        const Rgb around = scene_.lights().environment({ours(from), direction});
         return theirs(sun ? around + sun->light.radiance : around);
     }
 
     bool choose(const candela::Vec& from, const double (&numbers)[3], candela::LampPoint& point) override {
         const auto lamp =
-            scene_.sample_light(LitPoint(ours(from)), float(numbers[0]), {float(numbers[1]), float(numbers[2])});
+            scene_.lights().sample(LitPoint(ours(from)), float(numbers[0]), {float(numbers[1]), float(numbers[2])});
         if (lamp) point = {theirs(lamp->position), theirs(lamp->direction), theirs(lamp->radiance), lamp->pdf};
         return lamp.has_value();
     }
