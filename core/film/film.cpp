@@ -10,7 +10,7 @@ namespace lightnet {
 namespace {
 
 FilmFormat sound(FilmFormat format) {
-    format.expect_sound();
+    expect_sound(format);
     return format;
 }
 

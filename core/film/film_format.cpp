@@ -10,24 +10,6 @@
 
 namespace lightnet {
 
-void FilmFormat::expect_sound() const {
-    if (!width || !height) throw Error("film", "a picture needs at least one pixel");
-    if (!samples) throw Error("film", "a picture needs at least one sample per pixel");
-    if (layers.empty()) throw Error("film", "a picture needs at least one layer");
-    std::set<std::string> names(layers.begin(), layers.end());
-    names.insert(shown.begin(), shown.end());
-    if (names.size() != layers.size() + shown.size()) throw Error("film", "two layers have the same name");
-    for (const auto& [matte, count] : ids)
-        for (std::uint32_t level = 0; 2 * level < count; ++level)
-            if (const auto name = fmt::format("{}{:02}", matte, level); !names.insert(name).second)
-                throw Error("film", "a layer is called '" + name + "', as one of the matte '" + matte + "'");
-    const auto lies_within = [](std::uint32_t from, std::uint32_t size, std::uint32_t side) {
-        return size > 0 && from < side && size <= side - from;
-    };
-    if (crop && !(lies_within(crop->x, crop->width, width) && lies_within(crop->y, crop->height, height)))
-        throw Error("film", "the crop is not inside of the picture");
-}
-
 std::size_t FilmFormat::first_colour(std::size_t beside) const {
     std::size_t colour = layers.size();
     for (std::size_t i = 0; i < beside; ++i) colour += width_of(shown[i]);
@@ -72,6 +54,27 @@ Addition FilmFormat::addition() const {
     for (std::size_t i = 0; i < shown.size(); ++i)
         if (ids.contains(shown[i])) of_ids.push_back({first_colour(i), width_of(shown[i])});
     return {colours(), std::move(of_ids)};
+}
+
+void expect_sound(const FilmFormat& format) {
+    const std::uint32_t width = format.width, height = format.height;
+    const auto& layers = format.layers;
+    if (!width || !height) throw Error("film", "a picture needs at least one pixel");
+    if (!format.samples) throw Error("film", "a picture needs at least one sample per pixel");
+    if (layers.empty()) throw Error("film", "a picture needs at least one layer");
+    std::set<std::string> names(layers.begin(), layers.end());
+    names.insert(format.shown.begin(), format.shown.end());
+    if (names.size() != layers.size() + format.shown.size()) throw Error("film", "two layers have the same name");
+    for (const auto& [matte, count] : format.ids)
+        for (std::uint32_t level = 0; 2 * level < count; ++level)
+            if (const auto name = fmt::format("{}{:02}", matte, level); !names.insert(name).second)
+                throw Error("film", "a layer is called '" + name + "', as one of the matte '" + matte + "'");
+    const auto lies_within = [](std::uint32_t from, std::uint32_t size, std::uint32_t side) {
+        return size > 0 && from < side && size <= side - from;
+    };
+    if (const auto& crop = format.crop;
+        crop && !(lies_within(crop->x, crop->width, width) && lies_within(crop->y, crop->height, height)))
+        throw Error("film", "the crop is not inside of the picture");
 }
 
 }  // namespace lightnet

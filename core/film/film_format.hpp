@@ -92,12 +92,13 @@ struct FilmFormat {
     bool in_rounds() const { return adaptive() && halves(); }
     /// Samples that every pixel gets.
     std::uint32_t least_samples() const;
-    /// Throws Error on one without pixels, samples or layers, with two layers of one name, or whose crop lies outside.
-    void expect_sound() const;
     /// What must be rendered: the crop, and where cells decide, all of each cell that it touches, so that a pixel is
     /// the same in every crop.
     Window work() const;
 };
+
+/// Throws Error on one without pixels, samples or layers, with two layers of one name, or whose crop lies outside.
+void expect_sound(const FilmFormat& format);
 
 /// Of a first, coarse look at a picture: one sample of a quarter of its pixels, see Tile. It is complete like any other
 /// film, and nothing of it goes into the picture.
