@@ -41,8 +41,8 @@ struct GuidedColumns::Warping {
         for (std::size_t i = 0; i < all.count_; ++i) {
             const Vec2 u = all.numbers_[i];
             const SquarePoint at = GuideSquare::warped(u, all.column_of_[i], all.cell_of_[i]);
-            const bool leads = all.leads_[i] != 0;
-            all.warped_.set(i, {leads ? at.place.x : u.x, leads ? at.place.y : u.y});
+            const bool leads = all.leads_[i] != 0, moves = leads & (all.alone_[i] == 0);
+            all.warped_.set(i, {moves ? at.place.x : u.x, moves ? at.place.y : u.y});
             all.favour_[i] = leads ? at.density : 1;
         }
     }
@@ -64,7 +64,10 @@ void GuidedColumns::warp_numbers(MeshPoints& surfaces) {
     }
     Warping warping{*this};
     work_in_lanes(warping);
-    for (std::size_t i = 0; i < count_; ++i) surfaces.set_numbers(i, warped_[i]);
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (leads_[i] & alone_[i]) favour_[i] = cells_[i]->square.density(surfaces.numbers(i));
+        surfaces.set_numbers(i, warped_[i]);
+    }
 }
 
 // As GuidedPoint::height() and place().

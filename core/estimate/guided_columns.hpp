@@ -34,9 +34,13 @@ public:
 
     /// Takes the numbers by which surfaces, those of find(), send paths on to where they lie by the guide, where that
     /// is by the cosine; leaves others as they are, and where it knows nothing.
-    template <class Surfaces>
-    void warp(Surfaces& surfaces) {
-        for (std::size_t i = 0; i < count_; ++i) leads_[i] = known_[i] & std::uint32_t{surfaces.goes_by_cosine(i)};
+    /// Those of whoever goes `alone` stay as well.
+    template <class Surfaces, class Alone>
+    void warp(Surfaces& surfaces, Alone&& alone) {
+        for (std::size_t i = 0; i < count_; ++i) {
+            alone_[i] = alone(surfaces.who(i));
+            leads_[i] = known_[i] & std::uint32_t{surfaces.goes_by_cosine(i)};
+        }
         warp_numbers(surfaces);
     }
     /// After warp(), for surfaces that have several lobes: favour() of their directions, by surfaces alone of density
@@ -82,7 +86,7 @@ private:
     Columns3 direction_;
     Columns2 place_;
     Column height_, density_, lamp_pdf_, pdf_, guided_pdf_, shares_;
-    Flags known_, leads_, bare_, from_infinity_;
+    Flags known_, leads_, alone_, bare_, from_infinity_;
 };
 
 /// Surfaces, and what a guide knows of each.

@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t most_in_leaf = 1000;  // records, of a part of space that is not cut
 constexpr int most_cuts = 32;               // of space, one after the other
 constexpr double records_of_parent = 512;   // as if so many had been found as in all of the larger part
-constexpr double guide_even_share = 0.3;    // of all directions, for what records overlooked
+constexpr double guide_even_share = 0.1;    // of all directions, for what records overlooked
 
 using Records = std::span<GuideRecord>;
 

@@ -11,6 +11,7 @@
 #include "core/base/math/columns.hpp"
 #include "core/base/math/many_samples.hpp"
 #include "core/estimate/lamps_met.hpp"
+#include "core/estimate/path_chances.hpp"
 #include "core/estimate/path_lessons.hpp"
 #include "core/estimate/path_vertices.hpp"
 #include "core/estimate/shadow_rays.hpp"
@@ -34,6 +35,7 @@ struct PathBatch {
         float pdf = 0;
         std::uint8_t lobe = 0;
         float hoped = 0;  // light that all of the path is thought to bring, by a guide; 0: nobody knows
+        AloneOdds odds{};
     };
     /// Random numbers of each path at its vertex, dimension by dimension.
     struct Numbers {
@@ -44,6 +46,14 @@ struct PathBatch {
     void learn(Lessons& from) {
         lessons = &from;
         vertices.learn();
+    }
+
+    /// Says which of the paths that begin go by surfaces alone: where there is no guide, none.
+    void part(const LightGuide* guide) {
+        constexpr std::uint32_t way = 0x80000000;  // a dimension that no vertex has
+        samples.draw(way, numbers.survivals);
+        alone.clear();
+        for (const float number : numbers.survivals) alone.push_back(guide && number < AloneOdds::share);
     }
 
     std::vector<Rgb> sums;           // of each path that began, group by group of lamps
@@ -58,6 +68,7 @@ struct PathBatch {
     ManySamples first_samples;                         // the same, of their random numbers
     std::vector<std::uint32_t> begun;                  // of paths that go on by them: which of those
     Numbers numbers;
+    std::vector<std::uint8_t> alone;  // of each path, with a guide: does it go by surfaces alone?
     PathVertices vertices;
     ShadowRays shadow_rays;
     std::vector<std::uint8_t> occluded;

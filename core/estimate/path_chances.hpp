@@ -35,6 +35,24 @@ inline float chance_by_hope(float left) {
     return select(least < 1, least, 1);
 }
 
+/// Some guided paths go by surfaces alone, and each weighs what it does by both ways together: the balance heuristic
+/// over whole paths (Veach & Guibas 1995). So none weighs more than 1 / (their share) of what it would without a guide,
+/// however little that knows of the light. Of one path: how likely it is one of them, by the way that it has gone.
+// DECISIONS: guided-paths-in-part
+class AloneOdds {
+public:
+    static constexpr float share = 0.1f;
+    /// It goes on in a direction that lies `favour` times denser by the guide: how many times by both together.
+    float take(float favour) {
+        const float both = odds_ + (1 - odds_) * favour;
+        odds_ /= both;
+        return both;
+    }
+
+private:
+    float odds_ = share;
+};
+
 /// Chances by hope alone would make paths of a thousand times their weight where a guide knows nothing of a light that
 /// they may still meet. `weight`: of the light that the path brings, before; ends by chance never raise it above one.
 // DECISIONS: no-weight-by-chance

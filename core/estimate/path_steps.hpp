@@ -6,13 +6,13 @@
 namespace lightnet {
 
 template <bool guided, class Choice, class On>
-void PathVertices::go_on_from_visitor(const Visitor& visitor, std::span<const Vec2> directions, Choice&& choice,
+void PathVertices::go_on_from_visitor(const Leaving& visitor, std::span<const Vec2> directions, Choice&& choice,
                                       On&& on) {
     const Gathering at = gathering(visitor);
     const float chosen = at.bsdf.chooses() ? choice(visitor.path) : 0;
     const Vec2 u = directions[visitor.path];
     const GuidedPoint known = guided && guide_ ? guided_[visitor.point] : GuidedPoint();
-    const bool leads = guided && known && known.leads(chosen);
+    const bool leads = guided && known && known.leads(chosen) && !visitor.alone;
     const auto sample = leads ? led(at, known, u) : at.bsdf.sample(at.outgoing, chosen, u, at.lobes);
     if (!sample) return;
     Step step = step_to(at, *sample);

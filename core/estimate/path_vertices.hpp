@@ -172,7 +172,7 @@ public:
 
     /// A scattering event, and the ray by which the path goes on.
     struct Step {
-        BsdfSample sample;
+        BsdfSample sample;  // its weight is by the surface alone
         Ray ray;
         LitPoint from;
         const Rgb* inside;  // what fills the space that it crosses; may be null
@@ -182,20 +182,27 @@ public:
     /// From now on step_record() can be asked: before the first surface is added.
     void learn() { learns_ = true; }
     /// In on() of scatter(): what of the last step a guide can learn from, without its light. None: nothing.
-    const std::optional<GuideStep>& step_record() const { return record_; }
+    /// `times`: its density is so many times as high as the step says.
+    std::optional<GuideStep> step_record(float times) const {
+        auto record = record_;
+        if (record) record->density *= times;
+        return record;
+    }
     /// on(path, Step) of each whose light is not absorbed, in the order in which they were added. choice(path) for
     /// those who need it.
-    /// Not `guided`: nobody learns, and there is no guide.
+    /// Not `guided`: nobody learns, and there is no guide. `alone`, of each path: does it go by surfaces alone, though
+    /// there is one? Empty: nobody.
     template <bool guided = false, class Choice, class On>
-    void scatter(std::span<const Vec2> directions, Choice&& choice, On&& on) {
+    void scatter(std::span<const Vec2> directions, Choice&& choice, On&& on, std::span<const std::uint8_t> alone = {}) {
         for (std::size_t i = 0; i < plain_.size(); ++i) plain_.set_numbers(i, directions[plain_.who(i)]);
-        if (guided && guide_) plain_.guided.warp(plain_);
+        const auto is_alone = [&](std::uint32_t path) { return !alone.empty() && alone[path]; };
+        if (guided && guide_) plain_.guided.warp(plain_, is_alone);
         glossy_.each([&](auto& group) {
             for (std::size_t i = 0; i < group.size(); ++i) {
                 group.set_numbers(i, directions[group.who(i)]);
                 if (group.chooses) group.set_choice(i, choice(group.who(i)));
             }
-            if (guided && guide_) group.guided.warp(group);
+            if (guided && guide_) group.guided.warp(group, is_alone);
             group.sample();
             if (guided && guide_)
                 group.guided.find_favours(group.steps().incoming, group.steps().pdf, group.steps().rough);
@@ -209,7 +216,7 @@ public:
             const Kind kind = stops_[s].kind;
             const std::size_t i = stops_[s].index;
             if (kind == Kind::none)
-                go_on_from_visitor<guided>(visitors_[i], directions, choice, on);
+                go_on_from_visitor<guided>({visitors_[i], is_alone(visitors_[i].path)}, directions, choice, on);
             else if (kind == Kind::lambertian)
                 go_on_from_plain<guided>(i, on);
             else
@@ -227,6 +234,9 @@ private:
     };
     struct Visitor {
         std::uint32_t path, point;
+    };
+    struct Leaving : Visitor {
+        bool alone;
     };
     struct View {
         Vec3 outgoing;
@@ -266,7 +276,7 @@ private:
     }
     // In path_steps.hpp.
     template <bool guided, class Choice, class On>
-    void go_on_from_visitor(const Visitor& visitor, std::span<const Vec2> directions, Choice&& choice, On&& on);
+    void go_on_from_visitor(const Leaving& visitor, std::span<const Vec2> directions, Choice&& choice, On&& on);
     template <bool guided, class On>
     void go_on_from_plain(std::size_t i, On&& on);
     template <bool guided, class Glossy, class On>
@@ -346,7 +356,7 @@ private:
     /// The step as one that a guide knows, whose directions lie that much denser by it.
     static void follow(float known, float favour, Step& step) {
         step.known = known, step.favour = favour;
-        step.sample.weight *= 1 / favour, step.sample.pdf *= favour;
+        step.sample.pdf *= favour;
     }
 
     void note_plain_step(std::size_t i, float favour) {

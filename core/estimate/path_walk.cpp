@@ -102,6 +102,7 @@ private:
             }
         }
         batch.rays.resize(batch.paths.size());
+        if constexpr (guided) batch.part(guide_);
         draw(batch, 0);
         batch.kept = 0;
         const auto question = [&](std::size_t path) -> const Query& { return questions[batch.asked[path]]; };
@@ -324,7 +325,7 @@ private:
         const auto on = [&](std::uint32_t i, const Step& step) __attribute__((always_inline)) {
             send_on(batch, i, step, depth);
         };
-        batch.vertices.template scatter<guided>(batch.numbers.directions, choice, on);
+        batch.vertices.template scatter<guided>(batch.numbers.directions, choice, on, batch.alone);
     }
 
     /// Puts a path that goes on into the place of one that was here before, or of itself. Who ends by chance, which
@@ -334,13 +335,15 @@ private:
         const Path& path = batch.paths[i];
         Rgb weight = path.weight * on.sample.weight;
         const float eta_scale = path.eta_scale * on.sample.eta * on.sample.eta;
-        const float kept =
-            max_component(weight) * on.favour * eta_scale / (max_component(path.weight) * path.eta_scale);
+        const float kept = max_component(weight) * eta_scale / (max_component(path.weight) * path.eta_scale);
         if (!(kept > 0)) return;
+        AloneOdds odds = path.odds;
         float chance = depth >= roulette_depth_ ? chance_to_survive(kept) : 1, hoped = 0;
         if constexpr (guided) {
+            const float times = odds.take(on.favour);
+            weight *= 1 / times;
             if (batch.lessons)
-                batch.lessons->add(path.sum, batch.vertices.step_record(), weight,
+                batch.lessons->add(path.sum, batch.vertices.step_record(times / on.favour), weight,
                                    on.known >= 0 ? std::min(kept, 1.0f) * on.known : -1);
             const bool known = on.known >= 0;
             const float hope = known ? max_component(path.weight) * std::min(kept, 1.0f) * on.known : 0;
@@ -355,9 +358,10 @@ private:
         }
         batch.kept += survives;
         batch.samples.move(i, to);
+        if constexpr (guided) batch.alone[to] = batch.alone[i];
         batch.rays[to] = on.ray;
         const BsdfSample& by = on.sample;
-        batch.paths[to] = {path.sum, eta_scale, weight, on.inside, on.from, by.incoming, by.pdf, by.lobe, hoped};
+        batch.paths[to] = {path.sum, eta_scale, weight, on.inside, on.from, by.incoming, by.pdf, by.lobe, hoped, odds};
     }
 
     static constexpr Heuristic heuristic = Heuristic::automatic;

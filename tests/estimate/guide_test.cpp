@@ -215,7 +215,7 @@ TEST(GuidedColumns, KnowWhatOnePointAloneKnowsToTheBit) {
         columns.share(rays, heuristic);
         for (std::size_t i = 0; i < surfaces.size(); ++i)
             surfaces.set_numbers(i, Samples(4, std::uint32_t(i)).next_2d());
-        columns.warp(surfaces);
+        columns.warp(surfaces, [](auto) { return false; });
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             const auto side = GuideSide::of(surfaces.normal(i), surfaces.shading(i), surfaces.outgoing(i));
             const auto point = guide.at(surfaces.position(i), side, {0, 1});

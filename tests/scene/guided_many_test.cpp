@@ -130,7 +130,7 @@ TEST(GuidedMany, StopsTellEachWalkWhatOneIsTold) {
             if (follows) {
                 EXPECT_NEAR(step.sample.pdf / pdf, 1, 1e-4) << first + i;
                 EXPECT_NEAR(step.favour * sample->pdf / pdf, 1, 1e-4);
-                expect_near(step.sample.weight, sample->weight * (sample->pdf / pdf));
+                expect_near(step.sample.weight, sample->weight);
             }
             led += leads, others += known && !leads, with_gloss += leads && cosine.chance() < 1;
         }
