@@ -3,7 +3,9 @@
 // with the same seeds. The figure is the least product of all over its own.
 // Errors are relative squares (compare.hpp) without the worst thousandth of the pixels, as one firefly in one seed
 // would decide; with them they are printed, too. The reference's own noise is taken off. Arguments: names of scenes;
-// without any, all that have a reference. LIGHTNET_BENCH_SAMPLES: per pixel, instead of 64.
+// without any, all that have a reference. LIGHTNET_BENCH_SAMPLES: per pixel, instead of 64; LIGHTNET_BENCH_SEEDS:
+// instead of three. The lines of each scene are rows of a table, in Markdown, with plain path tracing in layers for
+// comparison.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -26,7 +28,10 @@ namespace lightnet::bench {
 namespace {
 
 constexpr double goal = 0.9;
-const int seeds = repeated(3);
+const int seeds = [] {
+    const char* given = std::getenv("LIGHTNET_BENCH_SEEDS");
+    return repeated(given ? std::max(1, std::atoi(given)) : 3);
+}();
 const std::string by_trials(lighting_by_trials);
 
 std::string samples() {
@@ -81,7 +86,7 @@ void measure(const ReferenceScene& scene) {
     const SceneFiles files(scene);
     if (files.missing()) return not_run("lighting." + scene.name, *files.missing());
     const Picture reference = read_exr(files.reference());
-    std::vector<std::string> names{by_trials};
+    std::vector<std::string> names{by_trials, lightings().front().name};
     for (const auto& lighting : lightings())
         if (lighting.on_trial) names.push_back(lighting.name);
     std::map<std::string, Pictures> all;
@@ -91,10 +96,11 @@ void measure(const ReferenceScene& scene) {
     double best = 1e300;
     for (const auto& name : names) {
         const Pictures& pictures = all[name];
-        std::printf("  %s, %s: %.2f s x %.3e = %.3e; with fireflies %.3e\n", scene.name.c_str(), name.c_str(),
+        std::printf("| %s | %s | %.2f s | %.3e | %.3e | with fireflies %.3e |\n", scene.name.c_str(), name.c_str(),
                     Pictures::mean(pictures.seconds), Pictures::mean(pictures.errors), pictures.cost(),
                     Pictures::mean(pictures.with_fireflies));
-        if (name != by_trials) best = std::min(best, pictures.cost());
+        const Lighting* lighting = find_lighting(name);
+        if (lighting && lighting->on_trial) best = std::min(best, pictures.cost());
     }
     figure("lighting." + scene.name, {best / all[by_trials].cost()}, goal, true);
 }
