@@ -41,7 +41,8 @@ private:
     std::shared_ptr<SharedFirstRays> first_rays_;
     PathWalk paths_;
 };
-// A limit counts the surfaces and collisions between the lamp and the one asked about.
+// A limit counts the surfaces and collisions between the lamp and the one asked about, but no panes, which these words
+// can't tell from mirrors.
 std::vector<std::string> paths_of(const Node& node) {
     const bool all = std::get<std::string>(node.params.at("paths").data) == "all";
     const double most = std::get<double>(node.params.at("max_depth").data);
@@ -67,7 +68,8 @@ Kind path_tracing_kind() {
                  .most = 65536},
                 {.name = "max_depth",
                  .type = ParamType::integer,
-                 .help = "surfaces that a light path may have between a lamp and the point; 0: any number",
+                 .help = "surfaces that a light path may have between a lamp and the point, but for panes that it "
+                         "passes straight; 0: any number",
                  .initial = Value{0.0},
                  .least = 0,
                  .most = 65536},

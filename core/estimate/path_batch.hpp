@@ -1,6 +1,7 @@
 // Light paths that go on together.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,8 +35,17 @@ struct PathBatch {
         Vec3 incoming;
         float pdf = 0;
         std::uint8_t lobe = 0;
-        float hoped = 0;  // light that all of the path is thought to bring, by a guide; 0: nobody knows
+        std::uint8_t panes = 0;  // that it has passed: they count as no surfaces
+        float hoped = 0;         // light that all of the path is thought to bring, by a guide; 0: nobody knows
         AloneOdds odds{};
+
+        /// Seen from where it was before, whose lamps are looked for through panes.
+        Path after_pane(float scale, Rgb left, const Rgb* filling, float hope, AloneOdds alone) const {
+            Path next = *this;
+            next.eta_scale = scale, next.weight = left, next.inside = filling, next.hoped = hope, next.odds = alone;
+            next.panes = static_cast<std::uint8_t>(std::min(panes + 1, 255));
+            return next;
+        }
     };
     /// Random numbers of each path at its vertex, dimension by dimension.
     struct Numbers {

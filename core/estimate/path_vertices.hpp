@@ -175,9 +175,10 @@ public:
         BsdfSample sample;  // its weight is by the surface alone
         Ray ray;
         LitPoint from;
-        const Rgb* inside;  // what fills the space that it crosses; may be null
-        float known = -1;   // mean radiance that arrives there, by the guide; below 0: it does not know
-        float favour = 1;   // how much denser the direction is sampled than by the surface alone
+        const Rgb* inside;    // what fills the space that it crosses; may be null
+        float known = -1;     // mean radiance that arrives there, by the guide; below 0: it does not know
+        float favour = 1;     // how much denser the direction is sampled than by the surface alone
+        bool passes = false;  // straight through a pane
     };
     /// From now on step_record() can be asked: before the first surface is added.
     void learn() { learns_ = true; }
@@ -339,8 +340,10 @@ private:
                 guided ? &guided_[visitor.point] : nullptr};
     }
     static Step step_to(const Gathering& at, const BsdfSample& sample) {
-        return {sample, at.point.ray_towards(sample.incoming), lit_point(at),
-                filling(at.bsdf, at.point, at.outgoing, sample.incoming, at.inside)};
+        Step step{sample, at.point.ray_towards(sample.incoming), lit_point(at),
+                  filling(at.bsdf, at.point, at.outgoing, sample.incoming, at.inside)};
+        step.passes = sample.transmitted && at.bsdf.is_pane();
+        return step;
     }
 
     static GuideSide side_of(const Gathering& at) {

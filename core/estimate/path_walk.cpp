@@ -6,7 +6,9 @@
 #include "core/base/math/columns.hpp"
 #include "core/estimate/path_batch.hpp"
 #include "core/estimate/path_chances.hpp"
+#include "core/estimate/path_flights.hpp"
 #include "core/estimate/through_media.hpp"
+#include "core/estimate/through_panes.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/lamps/lights.hpp"
 
@@ -18,7 +20,8 @@ template <bool guided>
 class Walker {
 public:
     /// `first`: null where paths begin by a guide, or for one.
-    Walker(const Scene& scene, const PathPlan& plan, Key key, const LightGuide* guide, SharedFirstRays* first)
+    Walker(const Scene& scene, const PathPlan& plan, bool panes, Key key, const LightGuide* guide,
+           SharedFirstRays* first)
         : scene_(scene),
           guide_(guide),
           first_rays_(plan.all ? nullptr : first),
@@ -28,8 +31,9 @@ public:
           max_depth_(plan.max_depth),
           roulette_depth_(plan.roulette_depth),
           all_(plan.all),
-          looks_twice_(scene_.lights().has_environment() && !scene_.lights().samples_environment()),
-          media_(scene.has_media()) {}
+          looks_twice_(scene_.lights().has_environment() && !scene_.lights().samples_environment() && !panes),
+          media_(scene.has_media()),
+          panes_(panes) {}
 
     void walk(std::span<const Query> questions, std::span<Rgb> answers, Learnt* learnt) const {
         const std::size_t paths = questions.size() * samples_;
@@ -96,7 +100,7 @@ private:
             for (; path < end; ++path, ++index) {
                 batch.asked.push_back(q);
                 batch.samples.add(key, index);
-                if (media_) batch.flights.add(child(key, flight_key), index);
+                if (media_) batch.flights.add(child(key, flights::key), index);
                 batch.paths.push_back(
                     {static_cast<std::uint32_t>(path - first) * groups_, 1, {1, 1, 1}, nullptr, {}, {}});
             }
@@ -107,6 +111,7 @@ private:
         batch.kept = 0;
         const auto question = [&](std::size_t path) -> const Query& { return questions[batch.asked[path]]; };
         if (first_rays_) {
+            if (panes_) look_through_panes(batch, question);
             batch.first_rays = first_rays_->some(first, last);
             if (!first_rays_->known(last)) find_first_rays(batch, question, first);
             first_rays_->set_known(last);
@@ -137,6 +142,15 @@ private:
             SharedFirstRays::draw(batch.vertices, batch.numbers.directions, samples, batch.first_rays);
         }
     }
+    /// For lamps that direct light does not find.
+    template <class Question>
+    void look_through_panes(Batch& batch, const Question& question) const {
+        for (std::size_t next = 0; next < batch.asked.size();) {
+            next = batch.vertices.begin(next, batch.asked.size(), question);
+            batch.vertices.find_bsdfs();
+            look_around(batch, 0);
+        }
+    }
     void begin_by_first_rays(Batch& batch) const {
         batch.begun.clear();
         for (std::uint32_t i = 0; i < batch.first_rays.size(); ++i) {
@@ -157,40 +171,12 @@ private:
     /// Takes all paths over their next vertex: the one of number `depth`.
     void go_on(Batch& batch, std::uint32_t depth) const {
         trace(batch, depth);
-        if (media_) fly(batch, depth);
+        if (media_) flights::go(scene_, batch, groups_, 2 * depth);
         draw(batch, depth);
         batch.kept = 0;
         for (std::size_t first = 0; first < batch.paths.size(); first += vertices_at_once)
             visit(batch, first, std::min(batch.paths.size(), first + vertices_at_once), depth);
         close(batch, depth);
-    }
-
-    /// What media do to paths on their way to what they would meet. They shine as the sky does: no lamp is looked for
-    /// in them.
-    void fly(Batch& batch, std::uint32_t depth) const {
-        batch.collisions.resize(batch.paths.size());
-        for (std::size_t i = 0; i < batch.paths.size(); ++i) {
-            Path& path = batch.paths[i];
-            Ray way = batch.rays[i];
-            if (batch.hits[i]) way.far = batch.hits[i]->distance;
-            const Flight flight = scene_.media().fly(way, path.weight, flight_numbers(batch, path.sum, 2 * depth));
-            batch.sums[path.sum + scene_.lights().environment_group()] += path.weight * flight.emitted;
-            path.weight *= flight.weight;
-            batch.collisions[i] = flight.collision;
-        }
-    }
-    Vec2 flight_numbers(const Batch& batch, std::uint32_t sum, std::uint32_t dimension) const {
-        return batch.flights.at(sum / groups_, dimension).next_2d();
-    }
-    /// A path has come to a point in a medium.
-    void collide(Batch& batch, std::size_t i) const {
-        Path& path = batch.paths[i];
-        const Collision& at = *batch.collisions[i];
-        if (path.inside) path.weight *= left_after(path.inside, at.distance);
-        const Ray& ray = batch.rays[i];
-        batch.vertices.add_in_space(static_cast<std::uint32_t>(i),
-                                    {ray.origin + path.incoming * at.distance, at.medium, ray.time}, -path.incoming,
-                                    lobe::all, path.inside);
     }
 
     /// Keeps the paths that go on, and adds what shadow rays found where nothing is in between.
@@ -201,9 +187,10 @@ private:
         ShadowRays& found = batch.shadow_rays;
         batch.occluded.resize(found.rays.size());
         scene_.occluded(found.rays, batch.occluded);
+        if (panes_) pass_through_panes(scene_, depth == 0 && !all_, batch.occluded, found);
         if (media_)
             pass_through_media(scene_, batch.occluded, found,
-                               [&](std::uint32_t sum) { return flight_numbers(batch, sum, 2 * depth + 1); });
+                               [&](std::uint32_t sum) { return flights::numbers(batch, groups_, sum, 2 * depth + 1); });
         for (std::size_t i = 0; i < found.sums.size(); ++i)
             batch.sums[found.sums[i]] += nothing_if(batch.occluded[i], found.light[i]);
         found.resize(0);
@@ -213,7 +200,8 @@ private:
         const ManySamples& samples = batch.samples;
         Numbers& numbers = batch.numbers;
         const std::uint32_t first = depth * dimensions;
-        if (!scene_.lights().empty() && (all_ || depth > 0)) samples.draw(first + place_on_lamp, numbers.places);
+        if (!scene_.lights().empty() && (all_ || panes_ || depth > 0))
+            samples.draw(first + place_on_lamp, numbers.places);
         if (scene_.lights().many()) samples.draw(first + choice_of_lamp, numbers.choices);
         if (depth > 0 || !first_rays_) samples.draw(first + direction, numbers.directions);
         if (guided || depth >= roulette_depth_) samples.draw(first + survival, numbers.survivals);
@@ -226,7 +214,7 @@ private:
         for (std::size_t i = first; i < last; ++i) {
             Path& path = batch.paths[i];
             if (media_ && batch.collisions[i]) {
-                collide(batch, i);
+                flights::collide(batch, i);
                 continue;
             }
             if (!batch.hits[i]) {
@@ -241,13 +229,17 @@ private:
         if (all_ || depth > 1) leave(batch, leaving, depth);
         batch.vertices.find_points();
         if (all_ || depth > 1) meet_lamps(batch);
-        if (!max_depth_ || depth <= max_depth_) go_round(batch, depth);
+        if (panes_ || !max_depth_ || depth <= max_depth_) go_round(batch, depth);
+    }
+    /// Has the path come to more surfaces than it may? Then it only goes on through panes.
+    bool at_its_end(const Path& path, std::uint32_t depth) const {
+        return panes_ && max_depth_ && depth > max_depth_ + path.panes;
     }
 
     /// What paths do at the surfaces that they have come to.
     void go_round(Batch& batch, std::uint32_t depth) const {
         batch.vertices.find_bsdfs();
-        if (depth > 0 || all_) look_around(batch, depth);
+        if (depth > 0 || all_ || panes_) look_around(batch, depth);
         scatter(batch, depth);
     }
 
@@ -293,7 +285,8 @@ private:
             const Numbers& numbers = batch.numbers;
             batch.vertices.sample_lamps(
                 {numbers.choices, numbers.places}, heuristic, batch.shadow_rays,
-                [&](std::uint32_t i) { return paths[i].weight; }, [&](std::uint32_t i) { return paths[i].sum; });
+                [&](std::uint32_t i) { return at_its_end(paths[i], depth) ? Rgb{} : paths[i].weight; },
+                [&](std::uint32_t i) { return paths[i].sum; });
         }
         if (two_looks(depth))
             batch.vertices.each([&](std::uint32_t i, const Gathering& at) { look_at_sky(batch, i, at, depth); });
@@ -333,6 +326,7 @@ private:
     [[gnu::always_inline]] void send_on(Batch& batch, std::size_t i, const Step& on, std::uint32_t depth) const {
         const std::size_t to = batch.kept;
         const Path& path = batch.paths[i];
+        if (at_its_end(path, depth) && !on.passes) return;
         Rgb weight = path.weight * on.sample.weight;
         const float eta_scale = path.eta_scale * on.sample.eta * on.sample.eta;
         const float kept = max_component(weight) * eta_scale / (max_component(path.weight) * path.eta_scale);
@@ -361,11 +355,14 @@ private:
         if constexpr (guided) batch.alone[to] = batch.alone[i];
         batch.rays[to] = on.ray;
         const BsdfSample& by = on.sample;
-        batch.paths[to] = {path.sum, eta_scale, weight, on.inside, on.from, by.incoming, by.pdf, by.lobe, hoped, odds};
+        if (on.passes && depth > 0)
+            batch.paths[to] = path.after_pane(eta_scale, weight, on.inside, hoped, odds);
+        else
+            batch.paths[to] = {path.sum, eta_scale, weight,     on.inside, on.from, by.incoming,
+                               by.pdf,   by.lobe,   path.panes, hoped,     odds};
     }
 
     static constexpr Heuristic heuristic = Heuristic::automatic;
-    static constexpr Key flight_key = key_of("flights");
 
     const Scene& scene_;
     const LightGuide* guide_;
@@ -378,21 +375,22 @@ private:
     bool all_;          // direct light as well
     bool looks_twice_;  // for the environment
     bool media_;        // are there any?
+    bool panes_;        // are there any?
 };
 
 }  // namespace
 
 void PathWalk::light(std::span<const Query> questions, Key key, SharedFirstRays& first, std::span<Rgb> answers) const {
-    Walker<false>(scene_, plan_, key, nullptr, &first).walk(questions, answers, nullptr);
+    Walker<false>(scene_, plan_, panes_, key, nullptr, &first).walk(questions, answers, nullptr);
 }
 
 void PathWalk::light(std::span<const Query> questions, Key key, const LightGuide& guide, std::span<Rgb> answers) const {
-    Walker<true>(scene_, plan_, key, &guide, nullptr).walk(questions, answers, nullptr);
+    Walker<true>(scene_, plan_, panes_, key, &guide, nullptr).walk(questions, answers, nullptr);
 }
 
 void PathWalk::learn(std::span<const Query> questions, Key key, const LightGuide* guide, Learnt& learnt) const {
     std::vector<Rgb> answers(questions.size());
-    Walker<true>(scene_, plan_, key, guide, nullptr).walk(questions, answers, &learnt);
+    Walker<true>(scene_, plan_, panes_, key, guide, nullptr).walk(questions, answers, &learnt);
 }
 
 }  // namespace lightnet

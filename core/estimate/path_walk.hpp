@@ -17,7 +17,8 @@ namespace lightnet {
 /// Which paths are followed.
 struct PathPlan {
     std::uint32_t samples = 1;         // of each question
-    std::uint32_t max_depth = 0;       // surfaces that a path may have behind the point; 0: any number
+    std::uint32_t max_depth = 0;       // surfaces that a path may have behind the point, but for panes that it passes
+                                       // straight; 0: any number
     std::uint32_t roulette_depth = 3;  // surfaces after which paths may end by chance
     bool all = false;                  // direct light as well
 };
@@ -36,7 +37,8 @@ struct Learnt {
 
 /// Path tracing with next-event estimation, multiple importance sampling and Russian roulette. Unless asked for all
 /// paths it leaves out what arrives straight from lamps and environment at the point asked about: that is direct light.
-/// Light that comes from them by way of mirrors or glass is counted here.
+/// Light that comes from them by way of mirrors or glass is counted here. Lamps are looked for through panes of glass
+/// too, also from the point asked about, and those that a path passes straight don't count as surfaces.
 ///
 /// Points on lamps can't find an environment without a map. There, where it counts first, the path's own direction and
 /// a second one, of which only the sky counts, share what they see of it half and half: the second one costs no more
@@ -47,7 +49,7 @@ struct Learnt {
 /// of lamps are kept apart, the same paths put what they find into one of several sums. Immutable; any thread may ask.
 class PathWalk {
 public:
-    PathWalk(const Scene& scene, const PathPlan& plan) : scene_(scene), plan_(plan) {}
+    PathWalk(const Scene& scene, const PathPlan& plan) : scene_(scene), plan_(plan), panes_(scene.has_panes()) {}
 
     /// Adds the mean light of each question's paths to its answer, group by group of lamps. Random numbers come from
     /// child(question.stream, key), those of first directions from SharedFirstRays::stream(question).
@@ -62,6 +64,7 @@ public:
 private:
     const Scene& scene_;
     PathPlan plan_;
+    bool panes_;  // has the scene any?
 };
 
 }  // namespace lightnet

@@ -343,7 +343,7 @@ class IrradianceCache(Node):
     keep: text, default ""
         file in which all records are kept for later runs, from the graph's folder; empty: none
     glossy_rays: integer, in rays, default 1.0, 1.0 … 65536.0
-        rays of glossy surfaces, per question
+        rays of glossy surfaces and of points in media, per question
     groups: flag, default false
         keeps the scene's groups of lamps apart: a layer for each
     """
@@ -386,7 +386,7 @@ class PathTracing(Node):
     samples: integer, in samples, default 1.0, 1.0 … 65536.0
         light paths per question
     max_depth: integer, default 0.0, 0.0 … 65536.0
-        surfaces that a light path may have between a lamp and the point; 0: any number
+        surfaces that a light path may have between a lamp and the point, but for panes that it passes straight; 0: any number
     roulette_depth: integer, default 3.0, 0.0 … 65536.0
         surfaces after which paths may end by chance: Russian roulette
     paths: text, "indirect" | "all", default "indirect"

@@ -93,4 +93,10 @@ inline Transparency transparency_of(const Material& material) {
     return std::visit([](const auto& m) { return m.transparency(); }, material.model);
 }
 
+/// Does light go straight on through it, all over: is it a pane of glass?
+inline bool is_pane(const Material& material) {
+    const auto* glass = std::get_if<DielectricMaterial>(&material.model);
+    return glass && glass->thin;
+}
+
 }  // namespace lightnet
