@@ -27,7 +27,7 @@ namespace {
 /// gradients (Ward & Heckbert 1992). Rehearsals find the points, from coarse to fine; all places compute the irradiance
 /// there; then the records are frozen. Where none reaches, the irradiance is computed for the question alone, with a
 /// sixteenth of the rays (the samples of a pixel add up), and not kept. Only what a surface scatters diffusely is
-/// interpolated; for the glossy rest rays are drawn anew each time. The bias is that of interpolation, by `accuracy`.
+/// interpolated; for gloss and media rays are drawn anew each time. The bias is that of interpolation, by `accuracy`.
 class IrradianceCache final : public LightOp {
 public:
     explicit IrradianceCache(const NodeContext& here)
@@ -73,6 +73,7 @@ public:
         std::vector<Wanted> wanted;
         std::vector<Rgb> found(groups_);
         for (std::size_t i = 0; i < questions.size(); ++i) {
+            if (questions[i].is_in_space()) continue;
             bool known = true;
             for (const Side& side : sides_of(questions[i])) {
                 if (is_black(side.scattered)) continue;
@@ -88,7 +89,7 @@ public:
         }
         if (rehearsal_.on()) return;
         add_computed(questions, wanted, answers);
-        add_glossy(questions, answers);
+        add_gathered(questions, answers);
     }
 
     Frozen frozen() const override { return Frozen(records_); }
@@ -275,15 +276,14 @@ private:
         }
     }
 
-    void add_glossy(std::span<const Query> questions, std::span<Rgb> answers) const {
+    void add_gathered(std::span<const Query> questions, std::span<Rgb> answers) const {
         BsdfGather gathered(scene_, key_, glossy_rays_);
         for (std::size_t q = 0; q < questions.size(); ++q) {
             const Query& question = questions[q];
-            if (!(question.lobes & lobe::glossy)) continue;
+            const std::uint8_t lobes = question.is_in_space() ? lobe::all : question.lobes & lobe::glossy;
+            if (!lobes) continue;
             const SurfacePoint point = scene_.surface(question);
-            const Bsdf bsdf = scene_.bsdf(point);
-            if (!(bsdf.lobes() & lobe::glossy)) continue;
-            gathered.add(q, question, point, bsdf, lobe::glossy, child(question.stream, key_, 2));
+            gathered.add(q, question, point, scene_.bsdf(point), lobes, child(question.stream, key_, 2));
         }
         gathered.answer(inputs_, answers);
     }
@@ -361,7 +361,7 @@ std::vector<Param> irradiance_cache_params() {
          .initial = Value{""}},
         {.name = "glossy_rays",
          .type = ParamType::integer,
-         .help = "rays of glossy surfaces, per question",
+         .help = "rays of glossy surfaces and of points in media, per question",
          .unit = "rays",
          .initial = Value{1.0},
          .least = 1,
@@ -390,7 +390,7 @@ Kind irradiance_cache_kind() {
         .inputs = {1, 1},
         .params = irradiance_cache_params(),
         .mistakes = irradiance_cache_mistakes,
-        .light = {.groups = true, .onward = "S*D"},
+        .light = {.space = true, .groups = true, .onward = "S*(D|V)"},
         .run = {.prepares = true, .rehearses = true, .freezes = "irradiance records", .keeps = true},
         .reads = reading(scene_of_light),
         .make_light = [](const NodeContext& here) { return std::make_unique<IrradianceCache>(here); },
