@@ -342,7 +342,7 @@ private:
     static Step step_to(const Gathering& at, const BsdfSample& sample) {
         Step step{sample, at.point.ray_towards(sample.incoming), lit_point(at),
                   filling(at.bsdf, at.point, at.outgoing, sample.incoming, at.inside)};
-        step.passes = sample.transmitted && at.bsdf.is_pane();
+        step.passes = sample.transmitted && !at.point.is_in_space() && shapes_[at.point.geometry].pane;
         return step;
     }
 

@@ -8,7 +8,6 @@
 #include "core/estimate/path_chances.hpp"
 #include "core/estimate/path_flights.hpp"
 #include "core/estimate/through_media.hpp"
-#include "core/estimate/through_panes.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/lamps/lights.hpp"
 

@@ -10,6 +10,7 @@
 #include "core/base/query.hpp"
 #include "core/estimate/light_guide.hpp"
 #include "core/estimate/shared_first_rays.hpp"
+#include "core/estimate/through_panes.hpp"
 #include "core/scene/scene.hpp"
 
 namespace lightnet {
@@ -49,7 +50,7 @@ struct Learnt {
 /// of lamps are kept apart, the same paths put what they find into one of several sums. Immutable; any thread may ask.
 class PathWalk {
 public:
-    PathWalk(const Scene& scene, const PathPlan& plan) : scene_(scene), plan_(plan), panes_(scene.has_panes()) {}
+    PathWalk(const Scene& scene, const PathPlan& plan) : scene_(scene), plan_(plan), panes_(has_panes(scene)) {}
 
     /// Adds the mean light of each question's paths to its answer, group by group of lamps. Random numbers come from
     /// child(question.stream, key), those of first directions from SharedFirstRays::stream(question).

@@ -1,9 +1,19 @@
 #include "core/estimate/through_panes.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace lightnet {
 namespace {
+
+// What is left of light that goes straight through; none: the pane lets none through.
+std::optional<Rgb> part_left(const Bsdf& pane, Vec3 outgoing) {
+    const auto chance = pane.reflection_chance(outgoing);
+    if (!chance) return {};
+    const auto sample = pane.sample(outgoing, (1 + *chance) / 2, {}, lobe::specular);
+    if (!sample || !sample->transmitted) return {};
+    return sample->weight * (1 - *chance);
+}
 
 // DECISIONS: panes-are-passed
 // What arrives of light on a ray; none: something else than panes is in its way.
@@ -13,9 +23,9 @@ std::optional<Rgb> through_panes(const Scene& scene, Ray ray) {
     for (int i = 0; i < most; ++i) {
         const auto hit = scene.intersect(ray);
         if (!hit) return left;
-        if (scene.lobes(*hit) & lobe::rough) return {};
+        if (!scene.column_shapes()[hit->geometry].pane) return {};
         const SurfacePoint point = scene.surface(*hit);
-        const auto part = scene.bsdf(point).straight_through(-ray.direction);
+        const auto part = part_left(scene.bsdf(point), -ray.direction);
         if (!part || is_black(*part)) return {};
         left *= *part;
         Ray beyond = point.ray_towards(ray.direction);
@@ -27,6 +37,10 @@ std::optional<Rgb> through_panes(const Scene& scene, Ray ray) {
 }
 
 }  // namespace
+
+bool has_panes(const Scene& scene) {
+    return std::ranges::any_of(scene.column_shapes(), [](const ColumnShape& shape) { return shape.pane; });
+}
 
 void pass_through_panes(const Scene& scene, bool only, std::span<std::uint8_t> occluded, ShadowRays& rays) {
     for (std::size_t i = 0; i < occluded.size(); ++i) {

@@ -261,11 +261,6 @@ const std::vector<Instance>& Scene::all() const {
     return built_->data.instances;
 }
 
-bool Scene::has_panes() const {
-    view_.parts.expect(ScenePart::materials);
-    return std::ranges::any_of(built_->data.materials, is_pane);
-}
-
 bool Scene::moves() const {
     view_.parts.expect(ScenePart::geometry | ScenePart::lamps);  // which may be all that moves
     return !built_->data.motion.empty();

@@ -113,9 +113,6 @@ public:
     bool has_media() const { return view_.parts.expect(ScenePart::media), has_media_; }
     const Media& media() const;
 
-    /// Are there panes of glass? Where there are none, nobody needs to ask what light goes through them.
-    bool has_panes() const;
-
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone, and who looks is
     /// who looked then. All parts must be in view.
     const SceneData& data() const;

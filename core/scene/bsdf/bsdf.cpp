@@ -106,13 +106,6 @@ std::optional<float> Bsdf::reflection_chance(Vec3 outgoing) const {
     return {};
 }
 
-std::optional<Rgb> Bsdf::straight_through(Vec3 outgoing) const {
-    const auto chance = is_pane() ? reflection_chance(outgoing) : std::nullopt;
-    if (!chance) return {};
-    const auto sample = this->sample(outgoing, (1 + *chance) / 2, {}, lobe::specular);
-    return sample ? sample->weight * (1 - *chance) : Rgb{};
-}
-
 // With which weight a part is sampled: 0 where it can't be seen, or has none of the lobes.
 float Bsdf::chance_of(const Part& part, Vec3 outgoing, std::uint8_t lobes) const {
     const bool front = dot(outgoing, normal_) > 0;

@@ -55,10 +55,6 @@ public:
     bool chooses() const { return parts_ || choosing<Model>[model_.index()]; }
     /// Of smooth glass: below which `choice` sample() reflects; what is not reflected is transmitted. None: of others.
     std::optional<float> reflection_chance(Vec3 outgoing) const;
-    /// Is it a pane of glass, through which light goes straight on?
-    bool is_pane() const { return !parts_ && std::holds_alternative<ThinDielectricBsdf>(model_); }
-    /// What a pane lets straight through to `outgoing`; none: it is no pane.
-    std::optional<Rgb> straight_through(Vec3 outgoing) const;
     /// f × |cos incoming| for the non-specular lobes among `lobes`, sr⁻¹; and the density with which sample() with the
     /// same `lobes` finds `incoming`, per steradian. Both exactly 0 for specular lobes.
     BsdfValue value_and_pdf(Vec3 outgoing, Vec3 incoming, std::uint8_t lobes) const {

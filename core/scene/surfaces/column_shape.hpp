@@ -34,6 +34,7 @@ struct ColumnShape {
     bool one_sided = false;
     bool bumpy = false;
     bool shines = false;  // emits light as well
+    bool pane = false;    // of glass: light goes straight on through it
 };
 
 }  // namespace lightnet

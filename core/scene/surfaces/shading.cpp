@@ -146,6 +146,7 @@ Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
         needs_.back().place =
             by_place(data.materials[shape.material].opacity) || (shape.emission && by_place(shape.emission->texture));
         column_shapes_.push_back(column_shape(shape, needs_.back()));
+        column_shapes_.back().pane = is_pane(data.materials[shape.material]);
     }
     take_motion();
 }
