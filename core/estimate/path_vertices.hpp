@@ -339,7 +339,7 @@ private:
                 inside,
                 guided ? &guided_[visitor.point] : nullptr};
     }
-    static Step step_to(const Gathering& at, const BsdfSample& sample) {
+    Step step_to(const Gathering& at, const BsdfSample& sample) const {
         Step step{sample, at.point.ray_towards(sample.incoming), lit_point(at),
                   filling(at.bsdf, at.point, at.outgoing, sample.incoming, at.inside)};
         step.passes = sample.transmitted && !at.point.is_in_space() && shapes_[at.point.geometry].pane;
