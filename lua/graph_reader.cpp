@@ -16,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/plain_file.hpp"
 #include "core/base/spare_threads.hpp"
 #include "lua/answer.hpp"
 
@@ -76,6 +77,14 @@ std::string pack(const std::string& file, const LuaOptions& options) {
                             {"asked", options.frame.asked}});
 }
 
+// None: it is no plain file, or larger than graphs are.
+std::optional<std::string> text_of(const std::string& file) try {
+    constexpr std::uint64_t most = std::uint64_t{1} << 20;
+    return PlainFile(file, most).text();
+} catch (const Error&) {
+    return std::nullopt;
+}
+
 std::string answer_to(const std::string& question) {
     const Json json = parse_json(question);
     LuaOptions options;
@@ -88,9 +97,9 @@ std::string answer_to(const std::string& question) {
         options.constants.emplace(name, text_from_json(value));
     try {
         const GraphFile read = read_graph(text_from_json(json.at("file")), options);
-        return lua::pack({to_json(read.graph), read.problems});
+        return lua::pack({to_json(read.graph), read.problems, read.alone});
     } catch (const UserError& error) {
-        return lua::pack({"", error.problems()});
+        return lua::pack({"", error.problems(), false});
     }
 }
 
@@ -142,12 +151,19 @@ GraphReader::GraphReader() : child_(std::make_unique<Child>()) {
 GraphReader::~GraphReader() = default;
 
 GraphFile GraphReader::read(const std::string& file, const LuaOptions& options) {
+    std::string question = pack(file, options);
+    const auto text = text_of(file);
+    if (text && last_ && last_->question == question && last_->text == *text) return last_->read;
+    last_.reset();
     std::optional<std::string> answer;
-    if (send_text(child_->socket, pack(file, options))) answer = receive_text(child_->socket);
+    if (send_text(child_->socket, question)) answer = receive_text(child_->socket);
     if (!answer) throw UserError({file, 0}, "can't be read: the process that evaluates graphs is gone");
-    auto [graph, problems] = lua::unpack(*answer);
+    auto [graph, problems, alone] = lua::unpack(*answer);
     if (graph.empty()) throw UserError(std::move(problems));
-    return {graph_from_json(graph), std::move(problems)};
+    GraphFile read{graph_from_json(graph), std::move(problems), alone};
+    // it may have been edited between the two looks at it
+    if (text && alone && read.problems.empty() && text_of(file) == text) last_ = {std::move(question), *text, read};
+    return read;
 }
 
 }  // namespace lightnet

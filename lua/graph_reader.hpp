@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "lua/load_graph.hpp"
@@ -19,12 +20,19 @@ public:
     GraphReader(const GraphReader&) = delete;
     GraphReader& operator=(const GraphReader&) = delete;
 
-    /// As read_graph(). One thread at a time. Throws UserError, also when the child is gone.
+    /// As read_graph(). One thread at a time. Throws UserError, also when the child is gone. What it gave last is given
+    /// again, without evaluating anything, where a graph without mistakes hangs on this file and the options alone, and
+    /// both are as they were.
     GraphFile read(const std::string& file, const LuaOptions& options);
 
 private:
     struct Child;
+    struct Last {
+        std::string question, text;  // with the options; all of the file
+        GraphFile read;
+    };
     std::unique_ptr<Child> child_;
+    std::optional<Last> last_;
 };
 
 }  // namespace lightnet

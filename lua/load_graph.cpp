@@ -50,11 +50,19 @@ Graph graph_in(int frame, const std::string& file, const std::string& text, LuaO
     }
 }
 
-void complete(Graph& graph, const lua::GraphScript& script, const std::string& file, const std::string& text,
+// False: frames beside it were looked at, and whatever these ask for.
+bool complete(Graph& graph, const lua::GraphScript& script, const std::string& file, const std::string& text,
               const LuaOptions& options) {
-    note_frames_beside(graph, [&](int by) { return graph_in(script.frame() + by, file, text, options); });
+    bool alone = true;
+    note_frames_beside(graph, [&](int by) {
+        alone = false;
+        return graph_in(script.frame() + by, file, text, options);
+    });
+    return alone;
 }
-void complete(Hosts&, const lua::HostsScript&, const std::string&, const std::string&, const LuaOptions&) {}
+bool complete(Hosts&, const lua::HostsScript&, const std::string&, const std::string&, const LuaOptions&) {
+    return true;
+}
 
 template <class Script>
 Answer run_script(const std::string& file, const Text& text_of, const LuaOptions& options) {
@@ -66,7 +74,7 @@ Answer run_script(const std::string& file, const Text& text_of, const LuaOptions
         sandbox.run(text);
         auto value = script.finish();
         answer.problems = script.take_problems();
-        if (answer.problems.empty()) complete(value, script, file, text, options);
+        if (answer.problems.empty()) answer.alone = complete(value, script, file, text, options) && sandbox.is_alone();
         answer.value = to_json(value);
     } catch (const UserError& error) {
         answer.problems = error.problems();
@@ -94,7 +102,7 @@ Answer evaluate(const std::string& file, const Text& text, const LuaOptions& opt
 GraphFile read(const std::string& file, const Text& text, const LuaOptions& options) {
     Answer answer = evaluate<lua::GraphScript>(file, text, options);
     sort_by_line(answer.problems, file);
-    return {graph_from_json(answer.value), std::move(answer.problems)};
+    return {graph_from_json(answer.value), std::move(answer.problems), answer.alone};
 }
 
 Graph sound(GraphFile read) {

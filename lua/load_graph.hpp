@@ -47,6 +47,7 @@ struct LuaOptions {
 struct GraphFile {
     Graph graph;
     std::vector<Problem> problems;
+    bool alone = false;  // nothing but this file and the options was looked at
 };
 
 /// Forks, so call it before threads are started. A file whose name ends in ".json" has a graph as to_json() writes it,

@@ -254,6 +254,7 @@ int Sandbox::require(lua_State* L) {
 
 // What a file returns is kept in the registry, under its name.
 int Sandbox::require(lua_State* L, const std::string& name) {
+    alone_ = false;
     std::string relative = name;
     std::replace(relative.begin(), relative.end(), '.', '/');
     const std::string folder = folder_of(file_);

@@ -32,6 +32,9 @@ public:
     /// Throws UserError with the line at fault.
     void run(const std::string& text);
 
+    /// Has it asked for no other file?
+    bool is_alone() const { return alone_; }
+
     /// Where the function that called the running C function stands.
     SourceLine caller() const;
 
@@ -59,6 +62,7 @@ private:
     std::string file_;
     std::size_t memory_, used_ = 0;
     std::size_t printed_ = 0;
+    bool alone_ = true;
     std::vector<std::string> chunks_;           // files that were loaded
     std::map<std::string, std::string> texts_;  // by their names
     SourceLine last_error_;                     // innermost line when the last error was thrown

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <string_view>
 #include <vector>
 
 #include "core/base/atomic_file.hpp"
@@ -32,6 +35,37 @@ float least_of_level(int level) {
         (srgb(std::bit_cast<float>(middle)) >= level ? there : below) = middle;
     }
     return std::bit_cast<float>(there);
+}
+
+/// srgb() by looking: a channel is of the level whose least it has reached. A power for each takes longer than all
+/// else.
+class Levels {
+public:
+    Levels() {
+        for (int level = 1; level <= 255; ++level) least_[level] = least_of_level(level);
+        least_.back() = std::numeric_limits<float>::infinity();
+        for (int i = 0, level = 0; i <= parts; ++i) {
+            while (float(i) / parts >= least_[level + 1]) ++level;
+            first_[i] = static_cast<std::uint8_t>(level);
+        }
+    }
+    std::uint8_t of(float linear) const {
+        if (!(linear > 0)) return 0;
+        if (linear >= 1) return 255;
+        std::size_t level = first_[static_cast<std::size_t>(linear * parts)];
+        while (linear >= least_[level + 1]) ++level;
+        return static_cast<std::uint8_t>(level);
+    }
+
+private:
+    static constexpr int parts = 4096;             // of 0 … 1
+    std::array<float, 257> least_{};               // by level
+    std::array<std::uint8_t, parts + 1> first_{};  // the level where a part begins
+};
+
+const Levels& levels() {
+    static const Levels all;
+    return all;
 }
 
 // In words.
@@ -64,6 +98,68 @@ std::vector<Rgb> exposed(const Picture& picture, float exposure, bool with_alpha
     return pixels;
 }
 
+void append_number(std::string& to, std::uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8) to += static_cast<char>(value >> shift & 0xff);
+}
+
+void append_chunk(std::string& png, std::string_view type, std::string_view data) {
+    append_number(png, static_cast<std::uint32_t>(data.size()));
+    const std::size_t begins = png.size();
+    png.append(type).append(data);
+    const auto* bytes = reinterpret_cast<const Bytef*>(png.data() + begins);
+    append_number(png, static_cast<std::uint32_t>(::crc32_z(0, bytes, png.size() - begins)));
+}
+
+/// 8 bits of each channel, row by row.
+struct Bitmap {
+    std::vector<std::uint8_t> values;
+    std::uint32_t width = 0, height = 0;
+    bool alpha = false;
+
+    std::size_t row_bytes() const { return std::size_t{width} * (alpha ? 4 : 3); }
+};
+
+// Packing takes longer than all else; what is stored as it is, is there at once.
+std::string stored(const Bitmap& bitmap) {
+    std::string rows;
+    rows.reserve(bitmap.values.size() + bitmap.height);
+    for (std::uint32_t y = 0; y < bitmap.height; ++y) {
+        rows += '\0';  // no filter
+        rows.append(reinterpret_cast<const char*>(&bitmap.values[y * bitmap.row_bytes()]), bitmap.row_bytes());
+    }
+    uLongf size = ::compressBound(rows.size());
+    std::string data(size, '\0');
+    if (::compress2(reinterpret_cast<Bytef*>(data.data()), &size, reinterpret_cast<const Bytef*>(rows.data()),
+                    rows.size(), Z_NO_COMPRESSION) != Z_OK)
+        throw Error("png", "there is not enough memory to store it");
+    data.resize(size);
+    std::string head;
+    append_number(head, bitmap.width);
+    append_number(head, bitmap.height);
+    for (const int value : {8, bitmap.alpha ? 6 : 2, 0, 0, 0}) head += static_cast<char>(value);
+    std::string png("\x89PNG\r\n\x1a\n");
+    append_chunk(png, "IHDR", head);
+    append_chunk(png, "sRGB", std::string(1, '\0'));  // perceptual
+    append_chunk(png, "IDAT", data);
+    append_chunk(png, "IEND", {});
+    return png;
+}
+
+std::string packed(const Bitmap& bitmap, png_uint_32 flags) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.flags = flags;
+    image.width = bitmap.width;
+    image.height = bitmap.height;
+    image.format = bitmap.alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string bytes(size, '\0');
+    if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, bitmap.values.data(), 0, nullptr))
+        throw Error("png", image.message);
+    bytes.resize(size);
+    return bytes;
+}
+
 }  // namespace
 
 std::string tone_of(const PngView& view) {
@@ -83,28 +179,20 @@ std::string png_of(const Picture& picture, const PngView& view, PngEffort effort
     const bool with_alpha = view.alpha && !picture.alpha.empty();
     std::vector<Rgb> pixels = exposed(picture, exposure, with_alpha);
     if (view.tone == Tone::ocio) ocio::show(pixels, view.ocio);
-    std::vector<std::uint8_t> values;
+    const Levels& by_level = levels();
+    Bitmap bitmap{{}, picture.width, picture.height, with_alpha};
+    auto& values = bitmap.values;
     values.reserve(pixels.size() * (with_alpha ? 4 : 3));
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const bool encoded = view.tone == Tone::ocio;
         const Rgb shown = encoded ? pixels[i] : toned(pixels[i], view.tone);
         for (const float channel : {shown.r, shown.g, shown.b})
-            values.push_back(encoded ? quantized(channel) : srgb(channel));
+            values.push_back(encoded ? quantized(channel) : by_level.of(channel));
         if (with_alpha) values.push_back(quantized(picture.alpha[i]));
     }
-
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    if (effort == PngEffort::quick) image.flags |= PNG_IMAGE_FLAG_FAST;
-    image.width = picture.width;
-    image.height = picture.height;
-    image.format = with_alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-    std::string bytes(size, '\0');
-    if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, values.data(), 0, nullptr))
-        throw Error("png", image.message);
-    bytes.resize(size);
-    return bytes;
+    if (effort == PngEffort::small) return packed(bitmap, 0);
+    constexpr std::size_t most_of_a_chunk = std::size_t{1} << 30;
+    return values.size() < most_of_a_chunk ? stored(bitmap) : packed(bitmap, PNG_IMAGE_FLAG_FAST);
 }
 
 void write_png(const std::filesystem::path& path, const Picture& picture, const PngView& view) {

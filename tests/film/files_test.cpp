@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -252,6 +253,27 @@ TEST(Png, ClipsAndFollowsTheCurveOfSrgb) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Picture picture{3, 1, {{0, 0.0031308f, 0.18f}, {0.5f, 1, 7}, {-1, nan, 0.001f}}, {}};
     EXPECT_THAT(decoded(png_of(picture)), ::testing::ElementsAre(0, 10, 118, 188, 255, 255, 0, 0, 3));
+}
+
+TEST(Png, HasTheSamePixelsWhereItIsThereAtOnce) {
+    Picture picture = noisy_picture(67, 41);
+    for (const bool alpha : {false, true}) {
+        const PngView view{.alpha = alpha};
+        if (alpha) picture.alpha.assign(picture.beauty.size(), 0.5f);
+        const auto form = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+        EXPECT_EQ(decoded(png_of(picture, view, PngEffort::quick), form), decoded(png_of(picture, view), form));
+    }
+}
+
+TEST(Png, GivesEachLevelFromItsLeastOn) {
+    const auto least = least_of_levels();
+    Picture picture{std::uint32_t(least.size()), 1, {}, {}};
+    for (const float value : least) picture.beauty.push_back({std::nextafter(value, 0.0f), value, 0});
+    const auto levels = decoded(png_of(picture));
+    for (std::size_t i = 0; i < least.size(); ++i) {
+        EXPECT_EQ(levels[3 * i], i);
+        EXPECT_EQ(levels[3 * i + 1], i + 1);
+    }
 }
 
 TEST(Png, ShowsAPictureBrighterWithoutChangingIt) {

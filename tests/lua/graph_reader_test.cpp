@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 #include <thread>
 
@@ -36,6 +37,38 @@ TEST_F(GraphReaderTest, SeesAFileThatHasChanged) {
         write("light = DirectLighting { samples = " + std::to_string(i) + " }\n");
         EXPECT_EQ(reader.read(file(), {}).graph.nodes[0].params.at("samples"), Value{double(i)});
     }
+}
+
+TEST_F(GraphReaderTest, SeesFilesThatOthersAskFor) {
+    const auto of_other = [&](const std::string& samples) {
+        std::ofstream(folder / "other.lua") << "return " + samples + "\n";
+        return reader.read(file(), {}).graph.nodes[0].params.at("samples");
+    };
+    write("local ask = _G['re' .. 'quire']\nlight = DirectLighting { samples = ask 'other' }\n");
+    EXPECT_EQ(of_other("2"), Value{2.0});
+    EXPECT_EQ(of_other("3"), Value{3.0});
+    write("local there, other = pcall(require, 'third')\nlight = DirectLighting { samples = there and other or 1 }\n");
+    EXPECT_EQ(of_other("4"), Value{1.0});
+    std::ofstream(folder / "third.lua") << "return 5\n";
+    EXPECT_EQ(of_other("4"), Value{5.0});
+}
+
+// Ends the processes that this one has started.
+void end_children() {
+    std::ifstream children("/proc/thread-self/children");
+    for (pid_t child = 0; children >> child;) ::kill(child, SIGKILL);
+}
+
+TEST_F(GraphReaderTest, EvaluatesNothingAgainThatIsAsItWas) {
+    write("rays = 2\nlight = DirectLighting { samples = rays }\n");
+    const auto samples = [&](const LuaOptions& options) {
+        return reader.read(file(), options).graph.nodes[0].params.at("samples");
+    };
+    EXPECT_EQ(samples({}), Value{2.0});
+    EXPECT_EQ(samples({.constants = {{"rays", "8"}}}), Value{8.0});
+    end_children();
+    EXPECT_EQ(samples({.constants = {{"rays", "8"}}}), Value{8.0}) << "it was there";
+    EXPECT_THROW(samples({}), UserError) << "it has to be evaluated, and nobody is left who could";
 }
 
 TEST_F(GraphReaderTest, TellsMistakesWithTheirLines) {

@@ -16,6 +16,7 @@
 #include "core/run/assembly/job.hpp"
 #include "core/run/assembly/load_scene.hpp"
 #include "tools/explain/explanation_text.hpp"
+#include "tools/explain/path_picture.hpp"
 #include "tools/request/run_settings.hpp"
 #include "transport/store/cache_folder.hpp"
 #include "transport/store/result_cache.hpp"
@@ -32,6 +33,22 @@ struct ExplainerEnds {};
 std::string explained(const PixelWish& wish, JsonTree more) {
     more["x"] = wish.x, more["y"] = wish.y;
     return sorted_text({{"explained", std::move(more)}});
+}
+
+// As the page draws them: two places each, whose ray it is ("": the renderer's), and whether it was stopped on its way
+// to light.
+JsonTree rays_of(const PixelAccount& account) {
+    constexpr std::size_t most_rays = 2000;
+    auto rays = JsonTree::list();
+    const auto lines = path_lines(account, most_told);
+    const auto tenth = [](float at) { return std::round(double{at} * 10) / 10; };
+    for (std::size_t i = lines.size() - std::min(most_rays, lines.size()); i < lines.size(); ++i) {
+        const auto& [from, to, node, hidden] = lines[i];
+        if (!std::isfinite(from.x + from.y + to.x + to.y)) continue;
+        rays.push_back({tenth(from.x), tenth(from.y), tenth(to.x), tenth(to.y),
+                        node == AskedQuestion::nobody ? "" : account.network->graph.nodes[node].name, hidden});
+    }
+    return rays;
 }
 
 }  // namespace
@@ -117,7 +134,8 @@ std::string LiveExplainer::answer(const PixelWish& wish) {
     return explained(wish, {{"samples", samples},
                             {"of", format_.samples},
                             {"seconds", std::round(took.count() * 1000) / 1000},
-                            {"text", explanation_text(account, request_.output, most_told)}});
+                            {"text", explanation_text(account, request_.output, most_told)},
+                            {"rays", rays_of(account)}});
 }
 
 PixelRecount& LiveExplainer::recount() {

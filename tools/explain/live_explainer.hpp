@@ -28,7 +28,7 @@ struct PixelWish {
 /// where these have no network, it reads the scene when it is first asked. One pixel after the other.
 class LiveExplainer {
 public:
-    /// {"explained": {"x", "y", "samples", "of", "seconds", "text"}}, or "error" in place of the last four.
+    /// {"explained": {"x", "y", "samples", "of", "seconds", "text", "rays"}}, or "error" in place of the last five.
     using Reply = std::function<void(std::string)>;
 
     /// `request` and `registry` outlive it.

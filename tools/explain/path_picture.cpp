@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 #include "core/scene/camera/camera.hpp"
 #include "core/scene/scene.hpp"
@@ -15,14 +18,23 @@ constexpr std::uint32_t least_side = 900;  // pixels of the longer side, so that
 constexpr float ground = 0.35f;            // times which the picture shows behind the lines
 constexpr float sky_reach = 0.3f;          // radii of the scene, of rays that meet nothing
 
-struct PathLine {
-    Vec3 from, to;  // homogeneous positions in the picture
-    Rgb colour;
-};
+// What lies behind the eye is cut off, or it would appear mirrored. `from`, `to`: homogeneous positions in the picture.
+// None: all of it does.
+std::optional<std::pair<Vec2, Vec2>> in_front(Vec3 from, Vec3 to) {
+    constexpr float nearest = 1e-4f;
+    if (from.z < nearest && to.z < nearest) return std::nullopt;
+    const auto cut = [&](Vec3 outside, Vec3 inside) {
+        const float part = (nearest - outside.z) / (inside.z - outside.z);
+        return outside + (inside - outside) * part;
+    };
+    if (from.z < nearest) from = cut(from, to);
+    if (to.z < nearest) to = cut(to, from);
+    return std::pair(Vec2{from.x / from.z, from.y / from.z}, Vec2{to.x / to.z, to.y / to.z});
+}
 
 class Drawing {
 public:
-    Drawing(const Picture& under, const Camera& camera) : camera_(camera), x_(under.x), y_(under.y) {
+    explicit Drawing(const Picture& under) : x_(under.x), y_(under.y) {
         enlarged_ = std::max(1u, least_side / std::max(under.width, under.height));
         drawn_.width = under.width * enlarged_, drawn_.height = under.height * enlarged_;
         drawn_.beauty.reserve(std::size_t{drawn_.width} * drawn_.height);
@@ -34,33 +46,19 @@ public:
             }
     }
 
-    void segment(Vec3 from, Vec3 to, Rgb colour) { draw({camera_.project(from), camera_.project(to), colour}); }
+    void line(Vec2 from, Vec2 to, Rgb colour) { draw_flat(place(from), place(to), colour); }
 
     void frame(std::uint32_t x, std::uint32_t y, Rgb colour) {
         const float left = float(x) - 0.5f, top = float(y) - 0.5f, right = left + 2, bottom = top + 2;
-        const std::array<Vec3, 5> corners{
-            {{left, top, 1}, {right, top, 1}, {right, bottom, 1}, {left, bottom, 1}, {left, top, 1}}};
-        for (std::size_t i = 0; i + 1 < corners.size(); ++i) draw({corners[i], corners[i + 1], colour});
+        const std::array<Vec2, 5> corners{{{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}}};
+        for (std::size_t i = 0; i + 1 < corners.size(); ++i) line(corners[i], corners[i + 1], colour);
     }
 
     Picture take() { return std::move(drawn_); }
 
 private:
-    void draw(PathLine line) {
-        // What lies behind the eye is cut off, or it would appear mirrored.
-        constexpr float nearest = 1e-4f;
-        if (line.from.z < nearest && line.to.z < nearest) return;
-        const auto cut = [&](Vec3 outside, Vec3 inside) {
-            const float part = (nearest - outside.z) / (inside.z - outside.z);
-            return outside + (inside - outside) * part;
-        };
-        if (line.from.z < nearest) line.from = cut(line.from, line.to);
-        if (line.to.z < nearest) line.to = cut(line.to, line.from);
-        draw_flat(place(line.from), place(line.to), line.colour);
-    }
-
-    Vec2 place(Vec3 seen) const {
-        return {(seen.x / seen.z - float(x_)) * float(enlarged_), (seen.y / seen.z - float(y_)) * float(enlarged_)};
+    Vec2 place(Vec2 seen) const {
+        return {(seen.x - float(x_)) * float(enlarged_), (seen.y - float(y_)) * float(enlarged_)};
     }
 
     // Cuts the line at the border (Liang and Barsky 1984), and sets a pixel for each step of at most one.
@@ -87,7 +85,6 @@ private:
         }
     }
 
-    const Camera& camera_;
     std::uint32_t x_, y_, enlarged_ = 1;
     Picture drawn_;
 };
@@ -110,17 +107,29 @@ PathColour path_colour(std::size_t node) {
     return colours[node % colours.size()];
 }
 
-Picture path_picture(const Picture& picture, const PixelAccount& account, std::size_t most) {
+std::vector<PathLine> path_lines(const PixelAccount& account, std::size_t most) {
     const Scene& scene = *account.network->scene;
-    Drawing drawing(picture, scene.camera());
-    for (std::size_t i = std::min(most, account.parts.size()); i-- > 0;)  // the brightest on top
-        for (const auto& ray : account.parts[i].account.rays) {
-            const auto& questions = account.parts[i].account.questions;
-            const bool renderer = ray.within == AskedQuestion::nobody;
-            Rgb colour = renderer ? Rgb{1, 1, 1} : path_colour(questions[ray.within].asked).colour;
-            if (ray.hidden) colour *= 0.15f;
-            drawing.segment(ray.ray.origin, end_of(ray, scene), colour);
-        }
+    std::vector<PathLine> lines;
+    for (std::size_t i = std::min(most, account.parts.size()); i-- > 0;) {
+        const auto& [rays, questions] = std::tie(account.parts[i].account.rays, account.parts[i].account.questions);
+        for (const auto& ray : rays)
+            if (const auto seen =
+                    in_front(scene.camera().project(ray.ray.origin), scene.camera().project(end_of(ray, scene))))
+                lines.push_back(
+                    {seen->first, seen->second,
+                     ray.within == AskedQuestion::nobody ? AskedQuestion::nobody : questions[ray.within].asked,
+                     ray.hidden});
+    }
+    return lines;
+}
+
+Picture path_picture(const Picture& picture, const PixelAccount& account, std::size_t most) {
+    Drawing drawing(picture);
+    for (const auto& line : path_lines(account, most)) {
+        Rgb colour = line.node == AskedQuestion::nobody ? Rgb{1, 1, 1} : path_colour(line.node).colour;
+        if (line.hidden) colour *= 0.15f;
+        drawing.line(line.from, line.to, colour);
+    }
     drawing.frame(account.x, account.y, {1, 0.02f, 0.02f});
     return drawing.take();
 }

@@ -9,7 +9,7 @@ export interface View {
     gains: Rgb[]; // of the layers
     stops: number;
     cleaned: number; // the part of the width, from the left, from which on layers are without noise; 1: nowhere
-    mixed?: number[]; // what each layer counts, times its own gain; for the other picture
+    mixed?: boolean; // gains are others than the picture's own; they then count for the other picture, too
     difference?: boolean; // from the other picture, without its sign
 }
 
@@ -88,13 +88,13 @@ export class Picture {
 
     /// Of the other picture: the layer of that name, and the sum with the same gains where it has the same layers.
     private of_other({ beauty, colours, gains }: Other, pixel: number, view: View): Rgb {
-        const mixed = view.mixed?.some((part) => part !== 1) && gains !== null;
+        const mixed = view.mixed && gains !== null;
         const wanted = view.colours ? view.colours.map((k) => colours[k]) : mixed ? this.layers.map((k) => colours[k]) : [beauty];
         const sum: Rgb = [0, 0, 0];
         wanted.forEach((colour, i) => {
             for (let c = 0; c < 3 && colour >= 0; ++c) {
                 const value = this.data[(pixel * this.colours + colour) * 3 + c];
-                const gain = mixed && !view.colours ? Math.fround(Math.fround(gains![i][c]) * view.mixed![i]) : 1;
+                const gain = mixed && !view.colours ? view.gains[i][c] : 1;
                 sum[c] = i === 0 ? Math.fround(gain * value) : Math.fround(sum[c] + Math.fround(gain * value));
             }
         });

@@ -17,6 +17,7 @@ class Run {
     changed = $state.raw<Record<string, number | boolean>>({}); // parameters that this page has set
     edited = $state.raw<Edited | null>(null); // the last that the session has told
     explained = $state.raw<Explained | null>(null); // the pixel that was clicked at; without words: they are on the way
+    chosen = $state(""); // the node that was clicked; "": none
     frozen = $state(false);
     step = 1; // of a report: pixels of the picture along a side of one here
     picture = $state.raw<Picture | null>(null);

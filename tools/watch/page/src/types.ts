@@ -108,6 +108,7 @@ export interface Explained {
     of?: number;
     seconds?: number;
     text?: string;
+    rays?: [number, number, number, number, string, boolean][]; // of the brightest samples, in the picture: from, to, whose ("": the image's), hidden
     error?: string;
 }
 
