@@ -78,7 +78,7 @@ std::string pack(const std::string& file, const LuaOptions& options) {
 }
 
 // None: it is no plain file, or larger than graphs are.
-std::optional<std::string> text_of(const std::string& file) try {
+std::optional<std::string> text_now(const std::string& file) try {
     constexpr std::uint64_t most = std::uint64_t{1} << 20;
     return PlainFile(file, most).text();
 } catch (const Error&) {
@@ -152,7 +152,7 @@ GraphReader::~GraphReader() = default;
 
 GraphFile GraphReader::read(const std::string& file, const LuaOptions& options) {
     std::string question = pack(file, options);
-    const auto text = text_of(file);
+    const auto text = text_now(file);
     if (text && last_ && last_->question == question && last_->text == *text) return last_->read;
     last_.reset();
     std::optional<std::string> answer;
@@ -162,7 +162,7 @@ GraphFile GraphReader::read(const std::string& file, const LuaOptions& options) 
     if (graph.empty()) throw UserError(std::move(problems));
     GraphFile read{graph_from_json(graph), std::move(problems), alone};
     // it may have been edited between the two looks at it
-    if (text && alone && read.problems.empty() && text_of(file) == text) last_ = {std::move(question), *text, read};
+    if (text && alone && read.problems.empty() && text_now(file) == text) last_ = {std::move(question), *text, read};
     return read;
 }
 

@@ -44,7 +44,7 @@ TEST_F(GraphReaderTest, SeesFilesThatOthersAskFor) {
         std::ofstream(folder / "other.lua") << "return " + samples + "\n";
         return reader.read(file(), {}).graph.nodes[0].params.at("samples");
     };
-    write("local ask = _G['re' .. 'quire']\nlight = DirectLighting { samples = ask 'other' }\n");
+    write("local ask = require\nlight = DirectLighting { samples = ask 'other' }\n");
     EXPECT_EQ(of_other("2"), Value{2.0});
     EXPECT_EQ(of_other("3"), Value{3.0});
     write("local there, other = pcall(require, 'third')\nlight = DirectLighting { samples = there and other or 1 }\n");
