@@ -15,6 +15,7 @@ TYPES = {
     "numbers": "Sequence[float]",
     "table": "Mapping[str, Any]",
     "table of names": "Mapping[str, str | Sequence[str]]",
+    "table of colours": "Mapping[str, float | Sequence[float]]",
     "file or colour": "str | Sequence[float]",
     "film": "Sequence[int] | Mapping[str, Any]",
     "scene": "Node",

@@ -266,17 +266,17 @@ void apply(const SceneOverrides& overrides, SceneData& scene, Files& files, cons
     if (overrides.sky || !std::holds_alternative<std::monostate>(overrides.environment))
         std::erase_if(scene.warnings, [](const Problem& said) { return said.what.ends_with(choose_around); });
     if (overrides.fog) put_fog(*overrides.fog, scene, where);
-    for (auto& environment : scene.environments) environment.radiance *= overrides.environment_scale;
     scene.film.scale *= std::exp2(overrides.exposure);
     if (overrides.clay) make_clay(scene);
     if (overrides.two_sided)
         for (auto& material : scene.materials) material.one_sided = false;
     if (!overrides.profiles.empty())
         put_profiles(overrides.profiles, direction_down(overrides, where), scene, files, where);
-    if (overrides.groups.empty()) return;
     std::vector<Problem> problems;
-    for (auto& mistake : sort_lamps(scene, overrides.groups)) problems.push_back({where, "'groups': " + mistake});
+    if (!overrides.groups.empty())
+        for (auto& mistake : sort_lamps(scene, overrides.groups)) problems.push_back({where, "'groups': " + mistake});
     if (!problems.empty()) throw UserError(std::move(problems));
+    edit_parts(overrides.parts, scene, where);
 }
 
 }  // namespace lightnet

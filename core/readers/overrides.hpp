@@ -10,6 +10,7 @@
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/readers/files/files.hpp"
+#include "core/readers/part_edits.hpp"
 #include "core/scene/data/lamp_names.hpp"
 #include "core/scene/data/scene_data.hpp"
 
@@ -51,12 +52,12 @@ struct SceneOverrides {
     std::variant<std::monostate, Rgb, std::string> environment;  // a colour, or the path of a picture: instead of all
     std::optional<SkyOverride> sky{};
     std::optional<FogOverride> fog{};
-    float environment_scale = 1;      // of whatever is around the scene then
     float exposure = 0;               // stops: doublings of the picture's brightness
     bool clay = false;                // all surfaces grey and diffuse
     bool two_sided = false;           // none is black from behind
     std::vector<LampGroup> groups{};  // of lamps
     std::vector<ProfileOverride> profiles{};
+    PartEdits parts{};
     std::optional<Vec3> profiles_down{};  // straight down of points with profiles, world space; else their own -z
 };
 

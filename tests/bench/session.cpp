@@ -1,6 +1,6 @@
 // Time from an edit to the first picture of a session, a coarse look, written to its files, and what it goes into.
-// Edits of the camera, of a node, of what is around the scene, and of a lamp and a material in the scene's file; on two
-// threads and on two daemons. Scenes of the project, and real ones where they are.
+// Edits of the camera, of a node, of what is around the scene, of a lamp and a material by their names, and in the
+// scene's file; on two threads and on two daemons. Scenes of the project, and real ones where they are.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/base/json.hpp"
@@ -37,6 +38,7 @@ struct Edited {
     std::string name, file;
     std::string lamp, material;  // behind either a number follows; "": its file has no such number
     std::string camera;          // of an edit, with the number of the edit in the place of {}
+    std::string painted;         // the name of a material
     double goal;                 // ms, for the slowest of twenty edits
     std::string rest;            // the folder of what the file names, if that is not beside it
 };
@@ -135,6 +137,11 @@ void edit(const Session& session, const Edited& scene, const std::string& kind, 
         session.say(fmt::format(R"({{"set":{{"direct.samples":{}}}}})", 1 + number % 2));
     } else if (kind == "around") {
         session.say(fmt::format(R"({{"set":{{"scene.environment_scale":{}}}}})", 2 + number));
+    } else if (kind == "lamp_by_name") {
+        session.say(fmt::format(R"({{"set":{{"scene.lamps":{{"*":{}}}}}}})", 1 + 0.01 * (number + 1)));
+    } else if (kind == "material_by_name") {
+        session.say(
+            fmt::format(R"({{"set":{{"scene.colours":{{"{}":[0.5,{},0.4]}}}}}})", scene.painted, 0.5 + 0.002 * number));
     } else {
         session.write(kind == "lamp" ? scene.lamp : scene.material, number);
     }
@@ -147,7 +154,8 @@ double at(double part, std::vector<double> times) {
 
 // Each edit comes while the picture of the one before is at work.
 void measure(const Edited& scene, const std::string& name, const std::string& layout) {
-    for (const std::string kind : {"camera", "node", "around", "lamp", "material"}) {
+    for (const std::string kind :
+         {"camera", "node", "around", "lamp_by_name", "material_by_name", "lamp", "material"}) {
         if (kind == "lamp" && scene.lamp.empty()) continue;
         Session session(scene, layout);
         std::vector<double> times;
@@ -173,13 +181,14 @@ void measure(const Edited& scene, const std::string& name, const std::string& la
 std::vector<Edited> scenes() {
     const std::string graphs = LIGHTNET_SOURCE_DIR "/graphs/";
     std::vector<Edited> all{{"cornell", graphs + "cornell_box.pbrt", "\"rgb L\" [", "\"rgb reflectance\" [",
-                             R"({"camera":{"from":[270.{},273,-800],"to":[278,273,280]}})", 60, ""},
+                             R"({"camera":{"from":[270.{},273,-800],"to":[278,273,280]}})", "red", 60, ""},
                             {"studio", graphs + "studio.pbrt", "\"diffuse\" \"rgb L\" [", "\"rgb reflectance\" [",
-                             R"({"camera":{"fov":40.{}}})", 60, ""}};
-    for (const std::string name : {"living-room", "bmw-m6"})
+                             R"({"camera":{"fov":40.{}}})", "plaster", 60, ""}};
+    using Painted = std::pair<std::string, std::string>;
+    for (const auto& [name, painted] : {Painted{"living-room", "MattePaint"}, Painted{"bmw-m6", "LEATHER"}})
         if (const auto rest = lightnet::test::shared_file("scenes/" + name + "-pbrt"); rest && !bench::smoke())
             all.push_back({name, (*rest / (name + ".pbrt")).string(), "", "\"rgb reflectance\" [",
-                           R"({"camera":{"fov":50.{}}})", 120, rest->string()});
+                           R"({"camera":{"fov":50.{}}})", painted, 120, rest->string()});
     return all;
 }
 

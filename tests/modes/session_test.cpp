@@ -199,6 +199,36 @@ TEST_F(SessionTest, SaysWhereTheTimeOfAnEditWent) {
     EXPECT_EQ(end(), 0);
 }
 
+class EditedParts : public SessionTest, public testing::WithParamInterface<std::vector<std::string>> {};
+
+TEST_P(EditedParts, GiveTheBytesOfAFreshRun) {
+    begin(GetParam());
+    wait_for_picture(0);
+    const std::string scene = R"("box.pbrt")";
+    const auto fresh_with = [&](const std::string& params) { return fresh(scene, scene + ", " + params); };
+    say(R"({"set": {"scene.lamps": {"black": [2, 1, 0.5]}}})");
+    wait_for_picture(1);
+    EXPECT_TRUE(now() == fresh_with("lamps = { black = { 2, 1, 0.5 } }"));
+    say(R"({"set": {"scene.colours": {"red": [0.1, 0.2, 0.9], "wh*": 0.4}}, "camera": {"fov": 30}})");
+    wait_for_picture(2);
+    EXPECT_TRUE(now() == fresh_with("lamps = { black = { 2, 1, 0.5 } }, camera = { fov = 30 }, "
+                                    "colours = { red = { 0.1, 0.2, 0.9 }, [\"wh*\"] = 0.4 }"));
+    say(R"({"set": {"scene.lamps": {"blakc": 2}}})");
+    ASSERT_TRUE(session_->wait_for("did you mean 'black'")) << session_->output();
+    say(R"({"set": {"scene.lamps": null, "scene.environment_scale": 2}})");
+    wait_for_picture(4);
+    EXPECT_TRUE(now() == fresh_with("camera = { fov = 30 }, environment_scale = 2, "
+                                    "colours = { red = { 0.1, 0.2, 0.9 }, [\"wh*\"] = 0.4 }"));
+    say(R"({"set": {"scene.colours": null, "scene.environment_scale": null}, "camera": null})");
+    wait_for_picture(5);
+    EXPECT_TRUE(now() == fresh());
+    EXPECT_EQ(end(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, EditedParts,
+                         testing::Values(std::vector<std::string>{"--threads", "2"},
+                                         std::vector<std::string>{"--local-workers", "2"}));
+
 TEST_F(SessionTest, NoticesFilesThatAreWrittenOrReplaced) {
     begin();
     wait_for_picture(0);

@@ -161,7 +161,7 @@ TEST(SceneOverrides, OfACameraMustSpanAView) {
 TEST(SceneOverrides, PutAColourAround) {
     SceneOverrides overrides;
     overrides.environment = Rgb{1, 2, 3};
-    overrides.environment_scale = 2;
+    overrides.parts.environment_scale = 2;
     SceneData old = with_camera();
     old.environments.resize(2);
     const auto scene = changed(old, overrides);

@@ -34,8 +34,9 @@ TEST(LastScene, IsLookedAtOtherwiseWhereNothingElseDiffers) {
     const auto scene = std::make_shared<const Scene>(SceneData{});
     last.hold(source, scene);
     const auto other = std::make_shared<const Scene>(SceneData{});
-    const auto look = [&](const Scene& built) {
+    const auto look = [&](const Scene& built, bool edited) {
         EXPECT_EQ(&built, scene.get());
+        EXPECT_FALSE(edited);
         return other;
     };
     source.sight["camera"] = Value{2.0};
@@ -43,6 +44,19 @@ TEST(LastScene, IsLookedAtOtherwiseWhereNothingElseDiffers) {
     EXPECT_EQ(last.take(source, look), other) << "the first one stays";
     source.params["two_sided"] = Value{true};
     EXPECT_EQ(last.take(source, look), nullptr) << "it is another scene";
+}
+
+TEST(LastScene, IsEditedWhereNoMoreThanItsPartsDiffer) {
+    LastScene last;
+    auto source = source_of("a");
+    last.hold(source, std::make_shared<const Scene>(SceneData{}));
+    const auto other = std::make_shared<const Scene>(SceneData{});
+    const auto edit = [&](const Scene&, bool edited) { return edited ? other : nullptr; };
+    source.edits["lamps"] = Value{Table{}};
+    source.sight["camera"] = Value{2.0};
+    EXPECT_EQ(last.take(source, edit), other);
+    source.params["two_sided"] = Value{true};
+    EXPECT_EQ(last.take(source, edit), nullptr) << "it is another scene";
 }
 
 TEST(LastScene, StaysUntilTheNextOfTheSameFileIsThere) {
@@ -62,7 +76,7 @@ TEST(LastScene, IsDroppedWhereMoreHangsOnTheCamera) {
     auto source = source_of("a");
     last.hold(source, std::make_shared<const Scene>(SceneData{}));
     source.sight["camera"] = Value{2.0};
-    EXPECT_EQ(last.take(source, [](const Scene&) { return nullptr; }), nullptr);
+    EXPECT_EQ(last.take(source, [](const Scene&, bool) { return nullptr; }), nullptr);
     EXPECT_EQ(last.take(source_of("a")), nullptr);
 }
 

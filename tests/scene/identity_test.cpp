@@ -269,14 +269,50 @@ SceneParts changed_by(const std::function<void(SceneData&)>& change) {
     return changed;
 }
 
+// With a shape for each material and texture.
+SceneData with_all_used(SceneData scene) {
+    const auto add = [&](MaterialId material) {
+        Shape ball = scene.shapes[1];
+        ball.material = material;
+        scene.shapes.push_back(ball);
+    };
+    for (std::size_t i = 0; i < all_materials().size(); ++i) add(MaterialId(std::uint32_t(i)));
+    for (std::size_t i = 0; i < all_textures().size(); ++i) {
+        scene.materials.push_back({"", DiffuseMaterial{TextureId(std::uint32_t(i))}});
+        add(MaterialId(std::uint32_t(scene.materials.size() - 1)));
+    }
+    return scene;
+}
+
+TEST(SceneTree, IsTheSameWhateverMaterialNobodyHas) {
+    EXPECT_EQ(changed_by([](SceneData& scene) {
+                  scene.textures.push_back({{7, 7, 7}, {}, false});
+              }),
+              changed_by([](SceneData& scene) {
+                  scene.textures.push_back({{1, 1, 1}, {}, false});
+              }));
+    SceneData scene = room();
+    scene.textures.push_back({{1, 1, 1}, {}, false});
+    const TextureId paint(std::uint32_t(scene.textures.size() - 1));
+    scene.materials.push_back({"spare", DiffuseMaterial{paint}});
+    const auto before = tree_of(scene);
+    scene.textures[paint].scale.r = 0.5f;
+    std::get<DiffuseMaterial>(scene.materials.back().model).sigma = 0.1f;
+    EXPECT_EQ(tree_of(scene).of(scene_of_light), before.of(scene_of_light));
+    scene.materials[0].model = TwoFacedMaterial{MaterialId(std::uint32_t(scene.materials.size() - 1)), 1};
+    const auto used = tree_of(scene);
+    scene.textures[paint].scale.r = 0.25f;
+    EXPECT_NE(tree_of(scene).of(scene_of_light), used.of(scene_of_light)) << "it is one side of another";
+}
+
 TEST(SceneTree, IsAnotherWheneverAnyNumberThatLightMeetsIs) {
-    std::map<Hash, std::size_t> seen{{tree_of(room()).of(scene_of_light), 0}};
+    std::map<Hash, std::size_t> seen{{tree_of(with_all_used(room())).of(scene_of_light), 0}};
     for (std::size_t changes = 0;; ++changes) {
         SceneData scene = room();
         Change change(changes);
         visit_members(scene, [&](auto&... members) { (change(members), ...); });
         if (!change.done()) break;
-        const auto [other, added] = seen.emplace(tree_of(scene).of(scene_of_light), changes);
+        const auto [other, added] = seen.emplace(tree_of(with_all_used(std::move(scene))).of(scene_of_light), changes);
         EXPECT_TRUE(added) << "change " << changes << " looks like change " << other->second << " or like none";
     }
 }

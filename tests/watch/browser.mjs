@@ -115,7 +115,10 @@ try {
     const explained = await page.getByTestId("explained").textContent();
     assert.match(explained, /Pixel 102, 153.*from its first 64 of 4096 samples/s);
     assert.match(await page.locator('[data-testid="explained"] pre').textContent(), /\nsample \d+: /);
+    assert(await page.getByTestId("paths").locator("line").count() > 3, "the paths are drawn");
     await shot(page, "explained-light-1400");
+    await page.getByTestId("draw-paths").uncheck();
+    assert.equal(await page.getByTestId("paths").count(), 0);
     await page.locator('[data-testid="explained"] >> text=close').click();
     await page.waitForSelector('[data-testid="explained"]', { state: "detached" });
 
@@ -156,6 +159,34 @@ try {
         const differing = ours.filter((value, i) => value !== theirs[i]).length;
         assert.equal(differing, 0, `gains ${direct}, ${bounce}: ${differing} of ${ours.length} values differ from lightnet remix`);
     }
+    // Light has a colour on its slider, too.
+    await short_page.getByTestId("colour-direct").fill("#ff8040");
+    const words = (await short_page.locator(".gains code").textContent()).split(" ").filter((word) => word.includes("="));
+    assert.match(words.join(" "), /^direct=0.35,[\d.]+,[\d.]+ bounce=2.7$/);
+    assert.equal(spawnSync(join(programs, "lightnet"), ["remix", "y.exr", ...words, "-o", "z.exr"], { cwd: folder }).status, 0);
+    await pause(400);
+    assert.deepEqual(await pixels(short_page), await pixels_of("z.png"), "coloured gains are those of lightnet remix");
+    await short_page.getByLabel("solo direct").click();
+    const copied = async (what) => {
+        await short_page.getByTestId(`copy-${what}`).click();
+        return short_page.getByTestId("mix-text").textContent();
+    };
+    assert.match(await copied("gains"), /^gains = { direct = { 0.35, [\d., ]+ }, emission = 0, bounce = 0 }$/);
+    // One picture is left on the stack, the sum of three.
+    const stack = [], kept = {};
+    for (const line of (await copied("Nuke")).split("\n")) {
+        const [word, name] = line.split(" ");
+        if (word === "set") kept[name] = stack.at(-1);
+        if (word === "push") stack.push(kept[name.slice(1)]);
+        if (["Read", "Shuffle", "Multiply", "Merge2"].includes(word)) {
+            const taken = { Read: 0, Shuffle: 1, Multiply: 1, Merge2: 2 }[word];
+            const inputs = stack.splice(stack.length - taken, taken);
+            stack.push(word === "Merge2" ? inputs.join("+") : word === "Read" ? "r" : `${inputs}${word[0]}`);
+        }
+    }
+    assert.deepEqual(stack, ["rSM+rSM+rSM"]);
+    const compiled = spawnSync("python3", ["-c", "import sys; compile(sys.stdin.read(), 'mix', 'exec')"], { input: await copied("Blender") });
+    assert.equal(compiled.status, 0, String(compiled.stderr));
     await shot(short_page, "gains-light-1400");
 
     // The same without its noise, and half of it with.
@@ -249,7 +280,9 @@ try {
     assert.equal(await view.ended, 0, view.said);
 
     // A session: its page moves the camera and sets parameters, and what the launcher writes is what a fresh run would.
-    const session = start("lightnet", ["session", graph, "--watch", "--threads", "1", "--size", "96x96", "--samples", "4",
+    const pair = [daemons[2], await daemon()];
+    writeFileSync(join(folder, "pair.lua"), pair.map(({ endpoint }) => `place "${endpoint}" {}\n`).join(""));
+    const session = start("lightnet", ["session", graph, "--watch", "--hosts", join(folder, "pair.lua"), "--size", "96x96", "--samples", "4",
         "-o", join(folder, "s.exr"), "--json"]);
     const stage = await open((await session.hears(/watch it at (\S+)/))[1]);
     const finished = (edit) => session.hears(new RegExp(`"event":"picture","edit":${edit},[^\n]*"finished":true`));
@@ -262,14 +295,27 @@ try {
     await stage.getByLabel("from x").press("Enter");
     await finished(1);
     assert.match(await stage.getByTestId("camera-line").textContent(), /from = { 420, 273, -800 }/);
+    pair[1].child.kill("SIGKILL");
+    await stage.getByTestId("node-bounce").click();
+    assert.match(await stage.getByTestId("node-facts").textContent(), /bounce PathTracing.*cornell.lua:\d+.*asked by lighting/s);
+    assert.equal(await stage.getByTestId("node").inputValue(), "bounce", "its parameters are there");
     await stage.getByTestId("node").selectOption("direct");
     await stage.locator('[id="direct.samples"]').fill("2");
     await stage.locator('[id="direct.samples"]').press("Enter");
     await finished(2);
+    await stage.getByTestId("lamp-black").fill("2");
+    await stage.getByTestId("lamp-black").press("Enter");
+    await finished(3);
+    await stage.getByTestId("material-red").fill("#2040c0");
+    await finished(4);
+    const said = await stage.getByTestId("params").locator("code").textContent();
+    const blue = JSON.parse(said.match(/scene\.colours = (\{.*?\})/)[1]).red;
+    assert(blue[2] > 0.5 && blue[0] < 0.02, said);
+    await shot(stage, "parts-light-1400");
     const line = await stage.getByTestId("camera-line").textContent();
     const { readFileSync: read, writeFileSync: write } = await import("node:fs");
     write(join(folder, "fresh.lua"), read(graph, "utf8").replace("samples = 1 }", "samples = 2 }")
-        .replace('"cornell_box.pbrt"', `"${join(dirname(graph), "cornell_box.pbrt")}", ${line}`));
+        .replace('"cornell_box.pbrt"', `"${join(dirname(graph), "cornell_box.pbrt")}", ${line}, lamps = { black = 2 }, colours = { red = { ${blue.join(", ")} } }`));
     const fresh = start("lightnet", ["run", join(folder, "fresh.lua"), "--threads", "1", "--size", "96x96", "--samples", "4",
         "-o", join(folder, "f.exr")]);
     assert.equal(await fresh.ended, 0, fresh.said);

@@ -84,6 +84,8 @@ std::string lua_type_of(const Param& param) {
             return "string|string[]";
         case ParamType::named_lists:
             return "table<string, string|string[]>";
+        case ParamType::named_colours:
+            return "table<string, number|number[]>";
     }
     return "any";
 }

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/error.hpp"
+#include "core/readers/part_edits.hpp"
 #include "core/run/assembly/kept.hpp"
 #include "core/run/assembly/last_scene.hpp"
 
@@ -38,27 +40,42 @@ void Handover::leave(LoadedScene& scene) {
 std::optional<LoadedScene> Handover::take(const Job& job, const Registry& registry) {
     if (!source_ || (!built_ && !data_)) return std::nullopt;
     auto source = scene_source(job, registry);
-    const bool same = source == *source_;
+    const bool same = source == *source_, other_parts = source.edits != source_->edits;
     LoadedScene scene;
     if (!holds_scene_of(job, registry)) return drop(), std::nullopt;
-    expect_sound(job, registry, built_ ? built_->data() : *data_);
     if (built_) {
-        scene.built = same ? built_ : seen_by(job, registry, *built_);
+        scene.built = same ? built_ : other_parts ? edited(job, registry, *built_) : seen_by(job, registry, *built_);
         if (!scene.built) return drop(), std::nullopt;
+        expect_sound(job, registry, scene.built->data());
+        built_ = scene.built;  // also where this run ends before it renders
     } else {
-        if (const auto onlooker = same ? std::nullopt : another_look(job.graph, registry, *data_))
-            data_->camera = onlooker->camera, data_->camera_given = true, data_->film = onlooker->film;
-        else if (!same)
-            return drop(), std::nullopt;
+        expect_sound(job, registry, *data_);
+        if (!same && !change(job, registry, other_parts)) return drop(), std::nullopt;
         scene.data = *std::exchange(data_, std::nullopt);
     }
+    if (other_parts) tree_.reset();
     source_ = std::move(source);
     scene.tree = tree_;
     return scene;
 }
 
+// What is not built. False: it can't be.
+bool Handover::change(const Job& job, const Registry& registry, bool other_parts) try {
+    const auto onlooker = another_look(job.graph, registry, *data_);
+    if (!onlooker || (other_parts && !may_be_edited(*data_))) return false;
+    if (other_parts) edit_again(job.graph, registry, *data_);
+    data_->camera = onlooker->camera, data_->camera_given = true, data_->film = onlooker->film;
+    return true;
+} catch (const UserError&) {
+    drop();  // it is no longer what its source says
+    throw;
+}
+
 bool Handover::holds_scene_of(const Job& job, const Registry& registry) const {
-    return source_ && scene_source(job, registry).is_but_for_sight(*source_) && !asks_for_all(job.graph, registry);
+    if (!source_ || asks_for_all(job.graph, registry)) return false;
+    const auto source = scene_source(job, registry);
+    if (built_ && source.edits != source_->edits && !may_stay_beside_another(*built_)) return false;
+    return source.is_but_for_edits(*source_);
 }
 
 void Handover::drop() {

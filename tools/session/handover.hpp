@@ -63,6 +63,7 @@ public:
     std::function<void()> loaded = {};
 
 private:
+    bool change(const Job& job, const Registry& registry, bool other_parts);
     void drop();
 
     std::optional<Crew> crew_;

@@ -223,6 +223,7 @@ std::string state_json(const WatchedState& state, const Graph& graph) {
                           {"to", {seen->to.x, seen->to.y, seen->to.z}},
                           {"up", {seen->up.x, seen->up.y, seen->up.z}},
                           {"fov", seen->fov}};
+    if (state.parts) json["parts"] = *state.parts;
     if (!state.forecast.rows.empty()) json["forecast"] = forecast_json(state.forecast);
     for (const auto& move : state.moves) {
         auto& moves = json["moves"];

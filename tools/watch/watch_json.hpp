@@ -12,6 +12,7 @@
 #include "core/run/assembly/activity.hpp"
 #include "tools/forecast/forecast_curve.hpp"
 #include "tools/support/run_report.hpp"
+#include "core/base/json_tree.hpp"
 #include "tools/watch/viewpoint.hpp"
 #include "transport/launcher/cluster.hpp"
 
@@ -43,6 +44,7 @@ struct WatchedState {
     Doings doing;
     std::vector<Tile> in_flight;
     std::optional<Viewpoint> viewpoint{};  // none: not known yet
+    std::optional<JsonTree> parts{};       // parts_to_edit(); none: nobody edits
     std::string outcome;                   // "": it goes on
     ForecastCurve forecast{};              // of a run that is over
 };

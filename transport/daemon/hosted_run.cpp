@@ -31,8 +31,9 @@ HostedRun::HostedRun(std::shared_ptr<const SocketContext> context, BlobCache& ca
     claim_files();
     expect(assignment_.plan);
     // DECISIONS: last-scene-stays
-    last_ = last_scene_.take(scene_source(assignment_.job, registry_),
-                             [this](const Scene& built) { return seen_by(assignment_.job, registry_, built); });
+    last_ = last_scene_.take(scene_source(assignment_.job, registry_), [this](const Scene& built, bool other_parts) {
+        return other_parts ? edited(assignment_.job, registry_, built) : seen_by(assignment_.job, registry_, built);
+    });
     if (goes_on_from_kept(assignment_.job.graph, registry_)) last_.reset();
     has_last_scene_ = last_ != nullptr;
     looking_ = background_.start([this, room = room_] {

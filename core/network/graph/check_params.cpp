@@ -50,6 +50,8 @@ std::string_view wanted(ParamType type) {
             return "a name or a list of names";
         case ParamType::named_lists:
             return "a table like { key = \"spot*\", fill = { \"panel1\", \"panel2\" } }";
+        case ParamType::named_colours:
+            return "a table like { key = 0.5, [\"wall*\"] = { 0.6, 0.1, 0.1 } }";
     }
     return "";
 }
@@ -109,6 +111,9 @@ public:
                 break;
             case ParamType::named_lists:
                 named_lists(value);
+                break;
+            case ParamType::named_colours:
+                named_colours(value);
                 break;
         }
     }
@@ -210,6 +215,25 @@ private:
             if (!are_names(entry))
                 complain_(in_quotes(param_.name) + ": " + in_quotes(name) + " must be " +
                           std::string(wanted(ParamType::names)) + ", not " + std::string(type_name(entry)));
+    }
+
+    void named_colours(const Value& value) const {
+        const auto* given = as<Table>(value);
+        if (!given) return;
+        if (!given->list.empty()) complain_(in_quotes(param_.name) + " must be " + std::string(wanted(param_.type)));
+        const auto in_range = [this](const Value& one) {
+            const auto* part = std::get_if<double>(&one.data);
+            return part && std::isfinite(float(*part)) && param_.least <= *part && *part <= param_.most;
+        };
+        for (const auto& [name, entry] : given->named) {
+            const auto* colour = std::get_if<Table>(&entry.data);
+            const bool sound = colour ? colour->named.empty() && colour->list.size() == 3 &&
+                                            std::all_of(colour->list.begin(), colour->list.end(), in_range)
+                                      : in_range(entry);
+            if (!sound)
+                complain_(in_quotes(param_.name) + ": " + in_quotes(name) +
+                          " must be a number or { red, green, blue }, " + range_text(param_));
+        }
     }
 
     void surrounding(const Value& value) const {

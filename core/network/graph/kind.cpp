@@ -200,6 +200,23 @@ Kind scene_kind() {
          .help = "straight down of points with such profiles, in world space; else -z of their own axes in the file",
          .optional = true,
          .count = 3},
+        {.name = "lamps",
+         .type = ParamType::named_colours,
+         .help = "times which lamps shine as in the file, by their names, * for any part of one, environment: around",
+         .least = 0,
+         .optional = true},
+        {.name = "colours",
+         .type = ParamType::named_colours,
+         .help = "colours of materials instead of the file's, by their names, * for any part of one",
+         .least = 0,
+         .most = 1,
+         .optional = true},
+        {.name = "roughness",
+         .type = ParamType::named_colours,
+         .help = "roughness of materials instead of the file's, 0: smooth, by their names, * for any part of one",
+         .least = 0,
+         .most = 1,
+         .optional = true},
         {.name = "two_sided",
          .type = ParamType::flag,
          .help =
@@ -319,6 +336,8 @@ std::string_view to_string(ParamType type) {
             return "name or list of names";
         case ParamType::named_lists:
             return "table of names";
+        case ParamType::named_colours:
+            return "table of colours";
     }
     return "";
 }

@@ -37,10 +37,11 @@ enum class ParamType {
     surrounding,  // the name of a file, or a colour { r, g, b }
     film,
     scene,
-    node,        // a node whose frozen state is taken: `choices` says of what
-    nodes,       // a list of nodes that give light
-    names,       // a name, or a list of them
-    named_lists  // entries with names, each a name or a list of them
+    node,          // a node whose frozen state is taken: `choices` says of what
+    nodes,         // a list of nodes that give light
+    names,         // a name, or a list of them
+    named_lists,   // entries with names, each a name or a list of them
+    named_colours  // entries with names, each a number or a colour { r, g, b }
 };
 
 std::string_view to_string(Role role);

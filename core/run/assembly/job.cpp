@@ -153,10 +153,12 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
 
 SceneSource scene_source(const Job& job, const Registry& registry) {
     const Node& node = scene_of(job.graph, registry);
-    SceneSource source{job.graph.file, job.scene, job.files, node.entries, node.params, {},
+    SceneSource source{job.graph.file, job.scene, job.files, node.entries, node.params, {}, {},
                        job.isa,        job.width, job.height};
     for (const char* name : {"camera", "next_camera", "previous_camera", "seen_by", "exposure"})
         if (auto param = source.params.extract(name)) source.sight.insert(std::move(param));
+    for (const char* name : {"lamps", "colours", "roughness", "environment_scale"})
+        if (auto param = source.params.extract(name)) source.edits.insert(std::move(param));
     return source;
 }
 
@@ -164,6 +166,21 @@ bool SceneSource::is_but_for_sight(const SceneSource& other) const {
     SceneSource same = *this;
     same.sight = other.sight;
     return same == other;
+}
+
+bool SceneSource::is_but_for_edits(const SceneSource& other) const {
+    SceneSource same = *this;
+    same.edits = other.edits;
+    return same.is_but_for_sight(other);
+}
+
+std::shared_ptr<const Scene> edited(const Job& job, const Registry& registry, const Scene& built) {
+    SceneData data = built.data_as_given();
+    const auto onlooker = another_look(job.graph, registry, data);
+    if (!onlooker || !may_be_edited(data)) return nullptr;
+    edit_again(job.graph, registry, data);
+    data.camera = onlooker->camera, data.camera_given = true, data.film = onlooker->film;
+    return std::make_shared<const Scene>(std::move(data), scene_options(job));
 }
 
 std::shared_ptr<const Scene> seen_by(const Job& job, const Registry& registry, const Scene& built) {

@@ -66,11 +66,14 @@ struct SceneSource {
     std::vector<Value> entries;           // of the Scene node
     std::map<std::string, Value> params;  // of the scene itself
     std::map<std::string, Value> sight;   // of who looks at it
+    std::map<std::string, Value> edits;   // of its lamps and materials
     std::string isa;
     std::uint32_t width = 0, height = 0;
     friend bool operator==(const SceneSource&, const SceneSource&) = default;
     /// Is it the same, whoever looks at it?
     bool is_but_for_sight(const SceneSource& other) const;
+    /// Is it that, but for edits of lamps and materials as well?
+    bool is_but_for_edits(const SceneSource& other) const;
 };
 SceneSource scene_source(const Job& job, const Registry& registry);
 /// A network around a scene that was built for a job with the same source. Its nodes must not go on from kept results,
@@ -82,6 +85,10 @@ std::shared_ptr<const Network> build_network(const Job& job, const Registry& reg
 /// A scene that was built for a job with the same source but for the camera, as this job looks at it; it shares all
 /// else. Null: it can't be, as more hangs on the camera. Throws UserError when that camera can't be.
 std::shared_ptr<const Scene> seen_by(const Job& job, const Registry& registry, const Scene& built);
+
+/// Likewise where the job edits lamps and materials in another way. Null as well where anything moves. It has data of
+/// its own, and shares what finds surfaces where that does not hang on materials.
+std::shared_ptr<const Scene> edited(const Job& job, const Registry& registry, const Scene& built);
 
 /// All that what is prepared may depend on, where nobody looks into the scene.
 MadeFrom made_from(const Job& job);

@@ -15,7 +15,9 @@ bool may_stay_beside_another(const Scene& scene) {
 std::shared_ptr<const Scene> LastScene::take(const SceneSource& source, const Look& look) {
     since_.reset();
     if (!scene_ || source == source_) return scene_;
-    auto other = look && source.is_but_for_sight(source_) ? look(*scene_) : nullptr;
+    const bool edited = source.edits != source_.edits;
+    const bool like = look && source.is_but_for_edits(source_) && (!edited || may_stay_beside_another(*scene_));
+    auto other = like ? look(*scene_, edited) : nullptr;
     if (!other && source.scene == source_.scene && may_stay_beside_another(*scene_)) before_ = scene_;
     if (!other) scene_.reset();
     return other;

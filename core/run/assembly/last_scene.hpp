@@ -21,10 +21,12 @@ public:
     using Time = std::chrono::steady_clock::time_point;
     static constexpr auto stays = std::chrono::minutes(5);
 
-    /// The scene looked at otherwise; null: it has to be built anew.
-    using Look = std::function<std::shared_ptr<const Scene>(const Scene&)>;
-    /// The scene, if it was built from that, or, by `look`, from that but for the camera; else it is dropped, as two
-    /// may not fit into memory. A small one stays until the next is there, where that comes from the same file, edited.
+    /// The scene looked at otherwise, or with other lamps and materials as well (`edited`); null: it has to be built
+    /// anew.
+    using Look = std::function<std::shared_ptr<const Scene>(const Scene&, bool edited)>;
+    /// The scene, if it was built from that, or, by `look`, from that but for the camera and such edits; else it is
+    /// dropped, as two may not fit into memory. A small one stays until the next is there, where that comes from the
+    /// same file, edited.
     std::shared_ptr<const Scene> take(const SceneSource& source, const Look& look = {});
     void hold(SceneSource source, std::shared_ptr<const Scene> scene);
     /// No run needs it now. To be called again and again: what is held too long is dropped.

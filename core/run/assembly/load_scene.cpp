@@ -99,6 +99,23 @@ void move_camera(const Values& params, SceneOverrides& overrides) {
         overrides.camera_later.push_back(at(frames(0) + (frames(1) - frames(0)) * float(step) / steps_of_camera));
 }
 
+std::map<std::string, Rgb> colours_by_name(const Values& params, const std::string& name) {
+    std::map<std::string, Rgb> colours;
+    const auto* given = param_as<Table>(params, name);
+    if (!given) return colours;
+    for (const auto& [part, value] : given->named) {
+        const auto* grey = std::get_if<double>(&value.data);
+        const Vec3 colour = grey ? Vec3{float(*grey), float(*grey), float(*grey)} : triple(value);
+        colours[part] = {colour.x, colour.y, colour.z};
+    }
+    return colours;
+}
+
+PartEdits part_edits(const Values& params) {
+    return {colours_by_name(params, "lamps"), colours_by_name(params, "colours"), colours_by_name(params, "roughness"),
+            number(params, "environment_scale").value_or(1)};
+}
+
 std::string frame_beside(const Graph& graph, const Table& frame, double fps) {
     FrameBeside beside{1 / fps};
     if (const auto* time = param_as<double>(frame.named, "time")) beside.time = *time;
@@ -128,7 +145,7 @@ SceneOverrides scene_overrides(const Graph& graph, const Registry& registry) {
         overrides.sky = sky_override(std::get<Table>(sky->second.data).named);
     if (const auto fog = params.find("fog"); fog != params.end())
         overrides.fog = fog_override(std::get<Table>(fog->second.data).named);
-    overrides.environment_scale = number(params, "environment_scale").value_or(1);
+    overrides.parts = part_edits(params);
     overrides.exposure = number(params, "exposure").value_or(0);
     overrides.clay = params.contains("material");
     const auto two_sided = params.find("two_sided");
@@ -190,6 +207,10 @@ std::map<std::string, std::string> scene_constants(const Graph& graph, const Reg
 
 std::optional<Onlooker> another_look(const Graph& graph, const Registry& registry, const SceneData& changed) {
     return look_again(scene_overrides(graph, registry), changed, scene_of(graph, registry).where);
+}
+
+void edit_again(const Graph& graph, const Registry& registry, SceneData& changed) {
+    edit_parts(part_edits(scene_of(graph, registry).params), changed, scene_of(graph, registry).where);
 }
 
 void find_mistakes(const Graph& graph, const Registry& registry, const SceneData& scene,

@@ -40,6 +40,10 @@ LoadedScene override_scene(const Graph& graph, const Registry& registry, Files& 
 /// camera, so the scene has to be changed from its files on. Throws UserError when that camera can't be.
 std::optional<Onlooker> another_look(const Graph& graph, const Registry& registry, const SceneData& changed);
 
+/// Edits lamps and materials of a scene that another graph has changed, which differs in these and the camera alone.
+/// Throws UserError.
+void edit_again(const Graph& graph, const Registry& registry, SceneData& changed);
+
 /// Appends what nodes of the graph find wrong with the scene.
 void find_mistakes(const Graph& graph, const Registry& registry, const SceneData& scene,
                    std::vector<Problem>& problems);

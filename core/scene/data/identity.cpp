@@ -8,7 +8,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/base/error.hpp"
 
@@ -122,6 +124,59 @@ std::vector<Hash> hashes_of(Pictures& pictures, const std::vector<T>& values) {
     return hashes;
 }
 
+/// Materials and textures that some shape has: no light meets any other, whatever it is.
+class Used {
+public:
+    explicit Used(const SceneData& scene)
+        : scene_(scene), materials_(scene.materials.size()), textures_(scene.textures.size()) {
+        for (const Shape& shape : scene.shapes) add(shape.material), add(shape.emission);
+    }
+
+    std::vector<Hash> materials(std::vector<Hash> hashes) const { return of(materials_, std::move(hashes)); }
+    std::vector<Hash> textures(std::vector<Hash> hashes) const { return of(textures_, std::move(hashes)); }
+
+private:
+    static std::vector<Hash> of(const std::vector<bool>& used, std::vector<Hash> hashes) {
+        for (std::size_t i = 0; i < hashes.size(); ++i)
+            if (!used[i]) hashes[i] = {};
+        return hashes;
+    }
+    template <class T>
+    void add(const T& value) {
+        if constexpr (!as_bytes<T> && !std::is_empty_v<T>)
+            visit_members(value, [&](const auto&... members) { (add(members), ...); });
+    }
+    template <class T>
+    void add(const std::optional<T>& value) {
+        if (value) add(*value);
+    }
+    template <class... T>
+    void add(const std::variant<T...>& value) {
+        std::visit([&](const auto& one) { add(one); }, value);
+    }
+    template <class T>
+    void add(const std::vector<T>& values) {
+        for (const T& value : values) add(value);
+    }
+    template <class T>
+    void add(const std::shared_ptr<T>&) {}
+    void add(const std::monostate&) {}
+    void add(const std::string&) {}
+    void add(MaterialId material) {
+        if (material >= materials_.size() || materials_[material]) return;
+        materials_[material] = true;
+        add(scene_.materials[material]);
+    }
+    void add(TextureId texture) {
+        if (texture >= textures_.size() || textures_[texture]) return;
+        textures_[texture] = true;
+        add(scene_.textures[texture]);
+    }
+
+    const SceneData& scene_;
+    std::vector<bool> materials_, textures_;
+};
+
 // Without what shines of it, which belongs to lamps.
 Hash hash_of_shape(Pictures& pictures, const Shape& shape) {
     const bool shines = shape.emission.has_value();
@@ -193,11 +248,13 @@ SceneTree tree_of(const SceneData& scene) {
     tree.lamps = hashes_of_lamps(pictures, scene);
     const auto& motion = scene.motion;
     const SceneMotion next = scene.next ? scene.next->motion : SceneMotion{};
+    const Used used(scene);
+    const auto materials = used.materials(tree.materials), textures = used.textures(tree.textures);
     // Rays go through holes, surfaces have bumps, and a point knows what its material asks for.
     const Hash geometry = hash_of(pictures, tree.shapes, scene.objects, tree.instances, motion.shapes, motion.instances,
-                                  scene.next.has_value(), next.shapes, next.instances, tree.materials, tree.textures);
+                                  scene.next.has_value(), next.shapes, next.instances, materials, textures);
     tree.parts[ScenePart::geometry] = geometry;
-    tree.parts[ScenePart::materials] = hash_of(pictures, tree.materials, tree.textures);
+    tree.parts[ScenePart::materials] = hash_of(pictures, materials, textures);
     tree.parts[ScenePart::lamps] = hash_of(pictures, geometry, tree.lamps, scene.environment_group, motion.lights);
     tree.parts[ScenePart::media] = hash_of(pictures, geometry, scene.media, scene.around);
     tree.parts[ScenePart::names] = hash_of_names(pictures, scene);

@@ -39,6 +39,14 @@ struct LampGroup {
     std::vector<std::string> lamps;  // names, * for any part of one
 };
 
+/// All lamps that go by one name, or are of its form.
+struct LampsNamed {
+    std::vector<std::size_t> shapes, lights;  // indices into those of SceneData
+    bool around = false;                      // what is around the scene is one of them
+    std::string fault;                        // what is wrong where there are none at all; else ""
+};
+LampsNamed lamps_named(const SceneData& scene, const std::string& wanted);
+
 /// Sorts all lamps into these groups, behind which comes `rest`. Returns what is wrong, one sentence each: a name that
 /// no lamp has, a group without a lamp, a lamp in two groups.
 std::vector<std::string> sort_lamps(SceneData& scene, const std::vector<LampGroup>& groups);

@@ -52,6 +52,21 @@ bool has_plain_shapes(const SceneData& scene) {
 
 }  // namespace
 
+std::vector<std::size_t> vertices_of(const SceneData& data) {
+    std::vector<std::size_t> vertices;
+    for (const Shape& shape : data.shapes) {
+        const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+        vertices.push_back(mesh ? mesh->positions.size() : 0);
+    }
+    return vertices;
+}
+
+SceneData with_vertices(SceneData data, const std::vector<std::size_t>& vertices) {
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        if (auto* mesh = std::get_if<Mesh>(&data.shapes[i].geometry)) mesh->positions.resize(vertices[i]);
+    return data;
+}
+
 void pad_positions(SceneData& data) {
     for (Shape& shape : data.shapes)
         if (auto* mesh = std::get_if<Mesh>(&shape.geometry)) {

@@ -170,6 +170,15 @@ struct NextFrame {
     std::vector<SceneCamera> cameras{};  // as those of the scene
 };
 
+/// What a graph may change again and again about a scene, as it was before.
+struct UneditedParts {
+    std::vector<Material> materials;
+    std::size_t textures = 0;             // how many there were
+    std::vector<AreaEmission> emissions;  // of the shapes that have one, in their order
+    std::vector<BareLight> lights;
+    std::vector<Rgb> around;  // radiances of the environments
+};
+
 struct SceneData {
     std::vector<Shape> shapes;  // those that no object names stand in world space
     std::vector<Object> objects;
@@ -194,12 +203,13 @@ struct SceneData {
     std::vector<SceneVariant> variants{};      // that the file has
     std::optional<Vec3> up{};                  // of the world, where the format says
     std::optional<NextFrame> next{};           // where somebody asks how far things move
+    std::optional<UneditedParts> unedited{};   // see edit_parts()
 };
 /// Without those who look (camera, film), without how its lamps are sorted, and without what was said or learnt of it.
 void visit_members(Is<SceneData> auto& scene, const auto& visit) {
     auto& [shapes, objects, instances, materials, textures, environments, lights, groups, environment_group, media,
            around, camera, camera_given, cameras, film, warnings, as_read, animations, motion, shutter, variants, up,
-           next] = scene;
+           next, unedited] = scene;
     visit(shapes, objects, instances, materials, textures, environments, lights, media, around);
     if (!motion.empty()) visit(motion);  // what stands still is what it was before there was any
     if (next) visit(next->motion);

@@ -14,7 +14,7 @@ class Run {
     link = $state<"connecting" | "open" | "lost" | "frozen">("connecting");
     allowed = $state(false); // to do something
     camera = $state.raw<Camera | null>(null); // of a session
-    changed = $state.raw<Record<string, number | boolean>>({}); // parameters that this page has set
+    changed = $state.raw<Record<string, number | boolean | object>>({}); // parameters that this page has set
     edited = $state.raw<Edited | null>(null); // the last that the session has told
     explained = $state.raw<Explained | null>(null); // the pixel that was clicked at; without words: they are on the way
     chosen = $state(""); // the node that was clicked; "": none
@@ -124,8 +124,10 @@ class Run {
         this.waits = 0;
         this.say_wish();
     }
-    set(path: string, value: number | boolean) {
-        this.changed = { ...this.changed, [path]: value };
+    /// Null: as the graph has it.
+    set(path: string, value: number | boolean | object | null) {
+        const { [path]: _, ...others } = this.changed;
+        this.changed = value === null ? others : { ...others, [path]: value };
         this.say({ do: "edit", edit: { set: { [path]: value } } });
     }
     take_back() {

@@ -84,8 +84,19 @@ export interface State {
     tiles: [number, number, number, number][];
     doing: Record<string, [string, number, number]>;
     camera?: Camera;
+    parts?: Parts; // of a session's scene
     moves?: Move[]; // so far
     forecast?: Forecast; // of a run that is done
+}
+
+export type Numbers = number | [number, number, number];
+
+/// What can be edited of a session's scene, by names: tools/watch/parts_to_edit.hpp.
+export interface Parts {
+    scene: string;
+    lamps: string[];
+    materials: { name: string; colour: [number, number, number] | null; roughness?: number }[];
+    edits: Record<"lamps" | "colours" | "roughness", Record<string, Numbers>>;
 }
 
 /// What a session tells of an edit.
