@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t most_printed = 64 << 10;
 
+constexpr const char* asked_field = "asked";  // of the registry: some file was required, or should have been
+
 // The order of a Lua table depends on where memory lies, so a graph made in a loop over one would differ from run to
 // run: numbers first, then texts, then the rest in whatever order.
 constexpr const char* prelude = R"lua(
@@ -254,7 +256,8 @@ int Sandbox::require(lua_State* L) {
 
 // What a file returns is kept in the registry, under its name.
 int Sandbox::require(lua_State* L, const std::string& name) {
-    alone_ = false;
+    lua_pushboolean(L, 1);
+    lua_setfield(L, LUA_REGISTRYINDEX, asked_field);
     std::string relative = name;
     std::replace(relative.begin(), relative.end(), '.', '/');
     const std::string folder = folder_of(file_);
@@ -281,6 +284,12 @@ int Sandbox::require(lua_State* L, const std::string& name) {
     lua_setfield(L, LUA_REGISTRYINDEX, key.c_str());
     done_[path] = true;
     return 1;
+}
+
+bool is_alone(const Sandbox& sandbox) {
+    const bool asked = lua_getfield(sandbox.state(), LUA_REGISTRYINDEX, asked_field) != LUA_TNIL;
+    lua_pop(sandbox.state(), 1);
+    return !asked;
 }
 
 }  // namespace lightnet::lua

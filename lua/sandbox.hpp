@@ -32,9 +32,6 @@ public:
     /// Throws UserError with the line at fault.
     void run(const std::string& text);
 
-    /// Has it asked for no other file?
-    bool is_alone() const { return alone_; }
-
     /// Where the function that called the running C function stands.
     SourceLine caller() const;
 
@@ -62,12 +59,14 @@ private:
     std::string file_;
     std::size_t memory_, used_ = 0;
     std::size_t printed_ = 0;
-    bool alone_ = true;
     std::vector<std::string> chunks_;           // files that were loaded
     std::map<std::string, std::string> texts_;  // by their names
     SourceLine last_error_;                     // innermost line when the last error was thrown
     std::map<std::string, bool> done_;          // required files; false: still running
     std::unique_ptr<lua_State, Close> state_;
 };
+
+/// Has what runs there asked for no other file?
+bool is_alone(const Sandbox& sandbox);
 
 }  // namespace lightnet::lua

@@ -10,12 +10,13 @@
 #include "core/base/joined.hpp"
 #include "core/base/suggestion.hpp"
 #include "core/scene/data/lamp_names.hpp"
+#include "core/scene/data/same_shapes.hpp"
 
 namespace lightnet {
 namespace {
 
 UneditedParts parts_of(const SceneData& scene) {
-    UneditedParts parts{scene.materials, scene.textures.size(), {}, scene.lights, {}};
+    UneditedParts parts{scene.materials, scene.textures.size(), {}, scene.lights, {}, vertices_of(scene)};
     for (const Shape& shape : scene.shapes)
         if (shape.emission) parts.emissions.push_back(*shape.emission);
     for (const auto& environment : scene.environments) parts.around.push_back(environment.radiance);
@@ -66,7 +67,7 @@ struct Recoloured {
     bool operator()(auto&) const { return false; }
 };
 
-/// The same of its roughness.
+/// Gives a material another roughness.
 struct Roughened {
     float roughness;
 

@@ -92,7 +92,6 @@ struct Scene::Built {
     /// `last`: another scene, or null. Where its shapes are these, its trees serve this one as well.
     Built(SceneData given, const SceneOptions& options, std::shared_ptr<const Built> last)
         : data(checked(std::move(given))),
-          vertices(vertices_of(data)),
           shading(data),
           isa(options.isa),
           like(with_same_trees(std::move(last))),
@@ -119,7 +118,6 @@ struct Scene::Built {
     const Geometry& geometry() const { return like ? *like->own : *own; }
 
     SceneData data;
-    std::vector<std::size_t> vertices;  // of each shape that is a mesh, before trees have put one more behind them
     Shading shading;
     std::string isa;
     std::shared_ptr<const Built> like;  // whose trees these are; null: it has its own
@@ -241,8 +239,6 @@ Hit Scene::hit(const Query& query) const {
 }
 
 const SceneData& Scene::data() const { return view_.parts.expect(whole_scene), built_->data; }
-
-SceneData Scene::data_as_given() const { return with_vertices(data(), built_->vertices); }
 
 template <>
 const std::vector<Shape>& Scene::all() const {

@@ -116,8 +116,6 @@ public:
     /// What the scene was built from: names of shapes, materials and objects. Its meshes may be gone, and who looks is
     /// who looked then. All parts must be in view.
     const SceneData& data() const;
-    /// A copy of what it was built from, as it was given; who looks is who looked then.
-    SceneData data_as_given() const;
     /// One of its lists: of shapes, materials, objects or instances.
     template <class T>
     const std::vector<T>& all() const;

@@ -73,7 +73,7 @@ const std::array homes{
     Home{"meshoptimizer", std::regex("meshoptimizer\\.h"), std::regex("core/readers/gltf/meshopt\\.cpp")},
     Home{"OpenColorIO", std::regex("OpenColorIO/.*"), std::regex("core/film/ocio\\.cpp")},
     Home{"zlib", std::regex("zlib\\.h"),
-         std::regex("core/(film/npz|readers/(mitsuba/\\w+|files/gzip|images/image_ktx))\\.cpp")},
+         std::regex("core/(film/(npz|png)|readers/(mitsuba/\\w+|files/gzip|images/image_ktx))\\.cpp")},
     Home{"Boost.Context", std::regex("boost/context/.*"), std::regex("core/run/fiber/.*")},
     Home{"Boost.Beast", std::regex("boost/beast.*"), std::regex("tools/http/.*")},
     Home{"Boost.Asio", std::regex("boost/(?!context/|beast).*"), std::regex("tools/http/.*")},

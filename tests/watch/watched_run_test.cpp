@@ -171,6 +171,13 @@ TEST_P(ExplainedModes, TellHowAPixelComesAbout) {
     EXPECT_EQ(told["of"], 1000000);
     EXPECT_THAT(told["text"].get<std::string>(),
                 AllOf(HasSubstr("pixel 40,50"), HasSubstr("bounce"), HasSubstr("sample ")));
+    bool from_the_eye = false;
+    for (const auto& ray : told["rays"]) {
+        ASSERT_EQ(ray.size(), 6u) << ray;
+        const double x = ray[2], y = ray[3];
+        from_the_eye |= ray[4] == "" && 40 <= x && x <= 41 && 50 <= y && y <= 51;
+    }
+    EXPECT_TRUE(from_the_eye) << told["rays"];
     EXPECT_EQ(explained(visitor, run, R"("x":40,"y":50,"samples":16)")["samples"], 16);
     EXPECT_THAT(explained(visitor, run, R"("x":96,"y":50)")["error"].get<std::string>(), HasSubstr("no such pixel"));
     visitor.say(R"({"do":"explain","x":1,"y":1})");

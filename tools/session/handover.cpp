@@ -22,6 +22,15 @@ void expect_sound(const Job& job, const Registry& registry, const SceneData& sce
     if (!problems.empty()) throw UserError(std::move(problems));
 }
 
+// Changes what is not built. False: it can't be. Throws UserError, and then it is no longer what it was.
+bool change(SceneData& data, const Job& job, const Registry& registry, bool other_parts) {
+    const auto onlooker = another_look(job.graph, registry, data);
+    if (!onlooker || (other_parts && !may_be_edited(data))) return false;
+    if (other_parts) edit_again(job.graph, registry, data);
+    data.camera = onlooker->camera, data.camera_given = true, data.film = onlooker->film;
+    return true;
+}
+
 }  // namespace
 
 void Handover::hold(const Job& job, const Registry& registry, std::shared_ptr<ReadScene> read) {
@@ -50,25 +59,13 @@ std::optional<LoadedScene> Handover::take(const Job& job, const Registry& regist
         built_ = scene.built;  // also where this run ends before it renders
     } else {
         expect_sound(job, registry, *data_);
-        if (!same && !change(job, registry, other_parts)) return drop(), std::nullopt;
         scene.data = *std::exchange(data_, std::nullopt);
+        if (!same && !change(scene.data, job, registry, other_parts)) return drop(), std::nullopt;
     }
     if (other_parts) tree_.reset();
     source_ = std::move(source);
     scene.tree = tree_;
     return scene;
-}
-
-// What is not built. False: it can't be.
-bool Handover::change(const Job& job, const Registry& registry, bool other_parts) try {
-    const auto onlooker = another_look(job.graph, registry, *data_);
-    if (!onlooker || (other_parts && !may_be_edited(*data_))) return false;
-    if (other_parts) edit_again(job.graph, registry, *data_);
-    data_->camera = onlooker->camera, data_->camera_given = true, data_->film = onlooker->film;
-    return true;
-} catch (const UserError&) {
-    drop();  // it is no longer what its source says
-    throw;
 }
 
 bool Handover::holds_scene_of(const Job& job, const Registry& registry) const {

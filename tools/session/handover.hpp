@@ -63,7 +63,6 @@ public:
     std::function<void()> loaded = {};
 
 private:
-    bool change(const Job& job, const Registry& registry, bool other_parts);
     void drop();
 
     std::optional<Crew> crew_;

@@ -173,11 +173,10 @@ Graph Run::take_up_checkpoint(const LoadedScene& scene, const MadeFrom& made) {
                                 : std::vector<LightRecipe>();
     const CameraData camera =
         scene.built ? scene.built->seen_from() : camera_in(scene.data, format_.width, format_.height);
-    if (watcher_ && request_.shown) {
+    if (watcher_ && request_.shown)
         watcher_->look_from(
-            viewpoint_of(camera, scene.built ? scene.built->bounds() : statistics_of(scene.data).bounds));
-        watcher_->show_parts(parts_to_edit(request_.graph, registry_, data_of(scene)));
-    }
+            viewpoint_of(camera, scene.built ? scene.built->bounds() : statistics_of(scene.data).bounds),
+            parts_to_edit(request_.graph, registry_, data_of(scene)));
     auto words = words_of(request_.graph, registry_, format_, recipe, data_of(scene), camera);
     if (const auto& name = request_.lighting.name; !name.empty()) words.notes.texts["lighting"] = name;
     book_.files().describe(std::move(words));

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/json_tree.hpp"
 #include "core/film/film.hpp"
 #include "core/network/graph/graph.hpp"
 #include "core/network/graph/kind.hpp"
 #include "core/run/assembly/activity.hpp"
 #include "tools/forecast/forecast_curve.hpp"
 #include "tools/support/run_report.hpp"
-#include "core/base/json_tree.hpp"
 #include "tools/watch/viewpoint.hpp"
 #include "transport/launcher/cluster.hpp"
 

@@ -51,10 +51,10 @@ public:
     /// Its last picture is: somebody watches it, or may come to it later.
     bool picture_wanted() const { return options_.server || board_->wanted(); }
 
-    /// From where the picture is seen.
-    void look_from(const Viewpoint& viewpoint) { state_.viewpoint = viewpoint; }
-    /// What can be edited of the scene: parts_to_edit().
-    void show_parts(JsonTree parts) { state_.parts = std::move(parts); }
+    /// From where the picture is seen, and what can be edited of its scene: parts_to_edit().
+    void look_from(const Viewpoint& viewpoint, JsonTree parts) {
+        state_.viewpoint = viewpoint, state_.parts = std::move(parts);
+    }
     void phase(const std::string& name);
     /// Places of this process render with that; a pixel of it can be explained without reading the scene again.
     void share(const std::shared_ptr<const Network>& network, const MadeFrom& made_from, float scale) {

@@ -10,6 +10,7 @@
 #include "core/network/graph/layout.hpp"
 #include "core/network/graph/plugin_use.hpp"
 #include "core/scene/camera_in.hpp"
+#include "core/scene/data/same_shapes.hpp"
 
 namespace lightnet {
 
@@ -175,9 +176,9 @@ bool SceneSource::is_but_for_edits(const SceneSource& other) const {
 }
 
 std::shared_ptr<const Scene> edited(const Job& job, const Registry& registry, const Scene& built) {
-    SceneData data = built.data_as_given();
-    const auto onlooker = another_look(job.graph, registry, data);
-    if (!onlooker || !may_be_edited(data)) return nullptr;
+    const auto onlooker = another_look(job.graph, registry, built.data());
+    if (!onlooker || !may_be_edited(built.data())) return nullptr;
+    SceneData data = with_vertices(built.data(), built.data().unedited->vertices);
     edit_again(job.graph, registry, data);
     data.camera = onlooker->camera, data.camera_given = true, data.film = onlooker->film;
     return std::make_shared<const Scene>(std::move(data), scene_options(job));

@@ -176,7 +176,8 @@ struct UneditedParts {
     std::size_t textures = 0;             // how many there were
     std::vector<AreaEmission> emissions;  // of the shapes that have one, in their order
     std::vector<BareLight> lights;
-    std::vector<Rgb> around;  // radiances of the environments
+    std::vector<Rgb> around;            // radiances of the environments
+    std::vector<std::size_t> vertices;  // of each shape that is a mesh: trees put one more behind them
 };
 
 struct SceneData {
