@@ -12,7 +12,7 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t most = 60;  // of each, which go with every state
+constexpr std::size_t most_parts = 60;  // of each, which go with every state
 
 JsonTree colour_json(Rgb colour) { return {colour.r, colour.g, colour.b}; }
 
@@ -55,7 +55,7 @@ JsonTree materials_json(const SceneData& scene) {
     auto all = JsonTree::list();
     std::set<std::string> names;
     for (const Material& material : scene.materials) {
-        if (names.size() >= most) break;
+        if (names.size() >= most_parts) break;
         if (!has_colour(material.model) || material.name.empty() || !names.insert(material.name).second) continue;
         const auto colour = single_colour(scene, material);
         JsonTree one{{"name", material.name}, {"colour", colour ? colour_json(*colour) : JsonTree(nullptr)}};
@@ -69,7 +69,7 @@ JsonTree lamps_json(const SceneData& scene) {
     auto all = JsonTree::list();
     std::set<std::string> names;
     for (const auto& lamp : lamps_of(scene)) {
-        if (names.size() >= most) break;
+        if (names.size() >= most_parts) break;
         if (names.insert(lamp.names.front()).second) all.push_back(lamp.names.front());
     }
     return all;
