@@ -13,7 +13,7 @@
 namespace lightnet {
 namespace {
 
-const SourceLine edited{"edit", 0};
+const SourceLine by_edit{"edit", 0};
 
 bool is_null(const Json& json) { return std::holds_alternative<std::monostate>(json.data); }
 
@@ -73,13 +73,13 @@ std::vector<std::string> names_of(const Graph& graph) {
 void set_param(const std::string& path, const Value& value, Graph& graph, std::vector<Problem>& problems) {
     const auto dot = path.find('.');
     if (dot == std::string::npos || dot == 0 || dot + 1 == path.size()) {
-        problems.push_back({edited, "'set' names a parameter as node.parameter, not " + in_quotes(path)});
+        problems.push_back({by_edit, "'set' names a parameter as node.parameter, not " + in_quotes(path)});
         return;
     }
     const auto name = path.substr(0, dot);
     const auto node = graph.find(name);
     if (!node) {
-        problems.push_back({edited, "there is no node " + in_quotes(name) + did_you_mean(name, names_of(graph))});
+        problems.push_back({by_edit, "there is no node " + in_quotes(name) + did_you_mean(name, names_of(graph))});
         return;
     }
     graph.nodes[*node].params[path.substr(dot + 1)] = value;
