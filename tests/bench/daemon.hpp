@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "transport/start/child.hpp"
 
@@ -15,11 +17,14 @@ namespace lightnet::bench {
 /// Killed with this object, and gone when its process is.
 class Daemon {
 public:
-    Daemon(const std::string& program, std::uint32_t places, const std::string& cache) {
+    /// `words`: what else it is told; `more`: of its environment.
+    Daemon(const std::string& program, std::uint32_t places, const std::string& cache,
+           const std::vector<std::string>& words = {}, std::vector<std::string> more = {}) {
         int out = -1;
-        process_ = spawn({program, "--places", std::to_string(places), "--quiet", "--cache", cache, "--parent",
-                          std::to_string(getpid())},
-                         &out);
+        std::vector<std::string> all{program, "--places", std::to_string(places),  "--quiet", "--cache",
+                                     cache,   "--parent", std::to_string(getpid())};
+        all.insert(all.end(), words.begin(), words.end());
+        process_ = spawn(std::move(all), &out, std::move(more));
         std::string line;
         for (char c = 0; read(out, &c, 1) == 1 && c != '\n';) line += c;
         close(out);

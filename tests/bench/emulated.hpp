@@ -1,9 +1,6 @@
-// Nodes whose cost is emulated: they wait in their place as long as real ones would compute, and leave the processor to
-// the others, so that one machine can play many.
+// Runs of nodes whose cost is emulated.
 #pragma once
 
-#include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,22 +9,12 @@
 #include "core/network/graph/kind.hpp"
 #include "core/run/assembly/job.hpp"
 #include "core/run/message/carrier.hpp"
+#include "tests/bench/emulated_kinds.hpp"
 #include "tests/bench/picture.hpp"
 
 namespace lightnet::bench {
 
-/// How many times slower than usual each replica of a node is, in the order in which they are made.
-struct Slowness {
-    std::vector<double> of_replica;                        // others: 1
-    std::chrono::steady_clock::time_point slowed_at = {};  // from then on ...
-    int slowed = -1;                                       // ... this one is ten times slower; -1: none
-    std::atomic<int> made{0};
-
-    double of(int replica) const;
-};
-
-/// `EmulatedLight { inputs…, microseconds = per question }` adds its inputs up; `EmulatedImage { inputs…, milliseconds
-/// = per tile, questions = per tile }` asks them. `slowness` is that of all nodes of kind `slow_kind`.
+/// As emulated_kinds_with() has them; `slowness` is that of all nodes of kind `slow_kind`.
 Registry emulated_kinds(std::shared_ptr<Slowness> slowness, const std::string& slow_kind);
 
 /// A node of such a graph.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -39,6 +40,36 @@ inline double growth(const std::vector<MemorySample>& samples, double part = 0.5
     const auto chosen = slopes.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(slopes.size()) * part);
     std::nth_element(slopes.begin(), chosen, slopes.end());
     return *chosen;
+}
+
+/// By which place each value comes among the others, from 0; those that are alike share the mean of theirs.
+inline std::vector<double> ranks_of(const std::vector<double>& values) {
+    std::vector<double> ranks;
+    for (const double value : values) {
+        const auto less = std::count_if(values.begin(), values.end(), [&](double other) { return other < value; });
+        const auto alike = std::count(values.begin(), values.end(), value);
+        ranks.push_back(double(less) + double(alike - 1) / 2);
+    }
+    return ranks;
+}
+
+/// Spearman's: 1 where both are in the same order, -1 where the order is reversed; 0 where all of one are alike.
+inline double rank_correlation(const std::vector<double>& one, const std::vector<double>& other) {
+    const auto a = ranks_of(one), b = ranks_of(other);
+    const double mean = (double(a.size()) - 1) / 2;
+    double both = 0, of_a = 0, of_b = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        both += (a[i] - mean) * (b[i] - mean);
+        of_a += (a[i] - mean) * (a[i] - mean), of_b += (b[i] - mean) * (b[i] - mean);
+    }
+    return of_a > 0 && of_b > 0 ? both / std::sqrt(of_a * of_b) : 0;
+}
+
+/// The value that `part` of all are not above.
+inline double part_below(std::vector<double> values, double part) {
+    std::sort(values.begin(), values.end());
+    const auto count = static_cast<std::size_t>(std::ceil(part * double(values.size())));
+    return values[std::clamp<std::size_t>(count, 1, values.size()) - 1];
 }
 
 }  // namespace lightnet::bench

@@ -37,5 +37,17 @@ TEST(Growth, OfALeakOfSomeMegabytesAMinuteIsSeen) {
 
 TEST(Growth, OfNothingSeenIsNone) { EXPECT_EQ(growth({}), 0); }
 
+TEST(RankCorrelation, IsOneInTheSameOrderAndLessInAnyOther) {
+    EXPECT_NEAR(rank_correlation({1, 2, 3, 4}, {10, 20, 21, 1000}), 1, 1e-12);
+    EXPECT_NEAR(rank_correlation({1, 2, 3, 4}, {4, 3, 2, 1}), -1, 1e-12);
+    EXPECT_NEAR(rank_correlation({1, 2, 3, 4}, {1, 2, 4, 3}), 0.8, 1e-12);
+    EXPECT_EQ(rank_correlation({1, 2, 3, 4}, {7, 7, 7, 7}), 0);
+}
+
+TEST(PartBelow, IsTheValueThatSoManyAreNotAbove) {
+    EXPECT_EQ(part_below({10, 9, 8, 7, 6, 5, 4, 3, 2, 1}, 0.9), 9);
+    EXPECT_EQ(part_below({3}, 0.9), 3);
+}
+
 }  // namespace
 }  // namespace lightnet::bench
