@@ -691,6 +691,12 @@ class Scene(Node):
         profiles of luminaires (.ies) for points and spots, by the lamps' names, * for any part of one
     ies_down: numbers
         straight down of points with such profiles, in world space; else -z of their own axes in the file
+    lamps: table of colours, 0.0 …
+        times which lamps shine as in the file, by their names, * for any part of one, environment: around
+    colours: table of colours, 0.0 … 1.0
+        colours of materials instead of the file's, by their names, * for any part of one
+    roughness: table of colours, 0.0 … 1.0
+        roughness of materials instead of the file's, 0: smooth, by their names, * for any part of one
     two_sided: flag
         surfaces that the file has black from behind (Mitsuba's, without a twosided) look alike on both sides
     """
@@ -721,6 +727,9 @@ class Scene(Node):
         groups: Mapping[str, str | Sequence[str]] | None = ...,
         ies: Mapping[str, str | Sequence[str]] | None = ...,
         ies_down: Sequence[float] | None = ...,
+        lamps: Mapping[str, float | Sequence[float]] | None = ...,
+        colours: Mapping[str, float | Sequence[float]] | None = ...,
+        roughness: Mapping[str, float | Sequence[float]] | None = ...,
         two_sided: bool | None = ...,
         name: str | None = ...,
     ) -> None: ...
