@@ -74,7 +74,8 @@ Answer run_script(const std::string& file, const Text& text_of, const LuaOptions
         sandbox.run(text);
         auto value = script.finish();
         answer.problems = script.take_problems();
-        if (answer.problems.empty()) answer.alone = complete(value, script, file, text, options) && lua::is_alone(sandbox);
+        if (answer.problems.empty())
+            answer.alone = complete(value, script, file, text, options) && lua::is_alone(sandbox);
         answer.value = to_json(value);
     } catch (const UserError& error) {
         answer.problems = error.problems();

@@ -22,6 +22,7 @@ namespace lightnet::auto_lighting_test {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::Each;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -230,7 +231,8 @@ Shape "trianglemesh" "integer indices" [ )" + faces + "] \"point3 P\" [ " +
                                                               corners + "]\n");
     ASSERT_EQ(lightnet({"render", scene, "--lighting", "auto", "--samples", "512", "-o", lightnet.file("x.exr")}), 0)
         << lightnet.err;
-    EXPECT_EQ(lightnet.runs.at(0).lighting.name, "path_all") << lightnet.runs[0].lighting.trials;
+    // a guide that is turned down costs hardly more, and on a busy machine even times of processors vary
+    EXPECT_THAT(lightnet.runs.at(0).lighting.name, AnyOf("path_all", "guided")) << lightnet.runs[0].lighting.trials;
 }
 
 }  // namespace
