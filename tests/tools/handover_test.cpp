@@ -36,6 +36,10 @@ protected:
         job.graph.nodes = {{"scene", "Scene", {Value{job.scene}}, params, {}},
                            {"light", "DirectLighting", {}, {}, {}},
                            {"image", "RayTracer", {Value{NodeRef{"light"}}}, {{"scene", Value{NodeRef{"scene"}}}}, {}}};
+        Table film;
+        film.list = {Value{16.0}, Value{16.0}};
+        film.named = {{"file", Value{std::string("x.exr")}}};
+        job.graph.nodes.back().params.emplace("film", Value{film});
         job.graph = check(job.graph, registry);
         job.isa = usual_isa();
         job.width = job.height = 16;

@@ -39,6 +39,10 @@ TEST(PartsToEdit, AreToldByTheirNames) {
     graph.nodes = {{"hall", "Scene", {Value{std::string("hall.pbrt")}}, {{"lamps", named("bulb", 2)}}, {}},
                    {"light", "DirectLighting", {}, {}, {}},
                    {"image", "RayTracer", {Value{NodeRef{"light"}}}, {{"scene", Value{NodeRef{"hall"}}}}, {}}};
+    Table film;
+    film.list = {Value{16.0}, Value{16.0}};
+    film.named = {{"file", Value{std::string("x.exr")}}};
+    graph.nodes.back().params.emplace("film", Value{film});
     graph = check(graph, registry);
     SceneData scene = room();
     edit_parts({{{"bulb", {2, 2, 2}}}}, scene, {});
