@@ -47,7 +47,7 @@ TEST(PartsToEdit, AreToldByTheirNames) {
     SceneData scene = room();
     edit_parts({{{"bulb", {2, 2, 2}}}}, scene, {});
     EXPECT_EQ(sorted_text(parts_to_edit(graph, registry, scene)),
-              R"({"edits":{"colours":{},"lamps":{"bulb":2},"roughness":{}},"lamps":["bulb"],"materials":[)"
+              R"({"edits":{"colours":{},"lamps":{"bulb":2.0},"roughness":{}},"lamps":["bulb"],"materials":[)"
               R"({"colour":[0.5,0.25,0.125],"name":"wall"},{"colour":null,"name":"tiles","roughness":0.25}],)"
               R"("scene":"hall"})");
 }
