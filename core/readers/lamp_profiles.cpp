@@ -96,7 +96,7 @@ void put_profiles(std::span<const ProfileOverride> profiles, const std::optional
     const Hanging hanging{down, down ? std::optional(-*down) : scene.up};
     for (const auto& [lamp, path] : profiles) {
         const auto profile = profile_in(path, files, problems, where);
-        auto [lights, another, fault] = lamps_called(scene, lamp);
+        auto [shapes, lights, around, another, fault] = lamps_called(scene, lamp);
         if (!another.empty())
             fault = "lamp " + in_quotes(another) + " is no point and no spot, which alone can shine by a profile";
         if (const std::string lacks = profile ? lacks_of_tilt(*profile, hanging.up.has_value()) : ""; !lacks.empty())

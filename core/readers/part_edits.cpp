@@ -91,9 +91,9 @@ public:
     Editor(SceneData& scene, SourceLine where) : scene_(scene), where_(std::move(where)) {}
 
     void change_lamps(const std::map<std::string, Rgb>& gains) {
-        std::vector<std::pair<LampsNamed, Rgb>> found;
+        std::vector<std::pair<LampsCalled, Rgb>> found;
         for (const auto& [name, gain] : gains) {
-            found.emplace_back(lamps_named(scene_, name), gain);
+            found.emplace_back(lamps_called(scene_, name), gain);
             if (!found.back().first.fault.empty()) complain("'lamps': " + found.back().first.fault);
         }
         for (const auto& [lamps, gain] : found) {  // by now none is black by an edit

@@ -104,39 +104,19 @@ std::vector<std::string> lamp_names_of_shapes(const SceneData& scene) {
     return names;
 }
 
-LampsNamed lamps_named(const SceneData& scene, const std::string& wanted) {
-    LampsNamed found;
-    std::size_t shape = 0, light = 0;
-    each_lamp(scene, [&](const auto& names, const std::string& what, std::uint32_t) {
-        const bool meant = goes_by_any(names, wanted);
-        if (what == "environment") {
-            found.around = meant;
-        } else if (what == "shape") {
-            while (!shines(scene, scene.shapes[shape])) ++shape;
-            if (meant) found.shapes.push_back(shape);
-            ++shape;
-        } else {
-            if (meant) found.lights.push_back(light);
-            ++light;
-        }
-    });
-    if (found.shapes.empty() && found.lights.empty() && !found.around)
-        found.fault = "there is no lamp called " + in_quotes(wanted) + hint(wanted, all_names(scene));
-    return found;
-}
-
 LampsCalled lamps_called(const SceneData& scene, const std::string& wanted) {
     LampsCalled found;
-    std::size_t next = 0;  // of the lights without a shape
+    std::size_t shape = 0, light = 0;
     each_lamp(scene, [&](const auto& names, const std::string& what, std::uint32_t) {
-        const bool bare = what != "shape" && what != "environment";
-        if (goes_by_any(names, wanted)) {
-            if (bare)
-                found.lights.push_back(next);
-            else if (found.another.empty())
-                found.another = names.front();
-        }
-        next += bare;
+        const bool meant = goes_by_any(names, wanted), around = what == "environment",
+                   bare = what != "shape" && !around;
+        if (what == "shape")
+            while (!shines(scene, scene.shapes[shape])) ++shape;
+        if (meant && bare) found.lights.push_back(light);
+        if (meant && what == "shape") found.shapes.push_back(shape);
+        if (meant && !bare && found.another.empty()) found.another = names.front();
+        found.around |= meant && around;
+        light += bare, shape += what == "shape";
     });
     if (found.lights.empty() && found.another.empty())
         found.fault = "there is no lamp called " + in_quotes(wanted) + hint(wanted, all_names(scene));

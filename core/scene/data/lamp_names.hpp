@@ -25,11 +25,12 @@ std::vector<NamedLamp> lamps_of(const SceneData& scene);
 /// By shape: the first name of the lamp that it is; "": it is none.
 std::vector<std::string> lamp_names_of_shapes(const SceneData& scene);
 
-/// Lamps that go by one name, or are of its form.
+/// All lamps that go by one name, or are of its form.
 struct LampsCalled {
-    std::vector<std::size_t> lights;  // indices into SceneData::lights
-    std::string another;              // the name of the first that has a shape, or is around the scene; "": none is
-    std::string fault;                // what is wrong where there are none at all; else ""
+    std::vector<std::size_t> shapes, lights;  // indices into those of SceneData
+    bool around = false;                      // what is around the scene is one of them
+    std::string another;  // the name of the first that has a shape, or is around the scene; "": none is
+    std::string fault;    // what is wrong where there are none at all; else ""
 };
 LampsCalled lamps_called(const SceneData& scene, const std::string& wanted);
 
@@ -38,14 +39,6 @@ struct LampGroup {
     std::string name;
     std::vector<std::string> lamps;  // names, * for any part of one
 };
-
-/// All lamps that go by one name, or are of its form.
-struct LampsNamed {
-    std::vector<std::size_t> shapes, lights;  // indices into those of SceneData
-    bool around = false;                      // what is around the scene is one of them
-    std::string fault;                        // what is wrong where there are none at all; else ""
-};
-LampsNamed lamps_named(const SceneData& scene, const std::string& wanted);
 
 /// Sorts all lamps into these groups, behind which comes `rest`. Returns what is wrong, one sentence each: a name that
 /// no lamp has, a group without a lamp, a lamp in two groups.
