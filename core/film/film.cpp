@@ -23,6 +23,18 @@ void cut(std::span<const Rgb> pixels, const Tile& tile, const Tile& area, std::s
     }
 }
 
+// All pixels of a coarse look: each shows what the one that was looked at does, beside it or above.
+std::vector<Rgb> with_neighbours(const Tile& tile, std::span<const Rgb> told, std::size_t colours) {
+    std::vector<Rgb> all;
+    all.reserve(tile.pixels() * colours);
+    for (std::size_t y = 0; y < tile.height; ++y)
+        for (std::size_t x = 0; x < tile.width; ++x) {
+            const auto from = told.subspan((y / tile.stride * tile.columns() + x / tile.stride) * colours, colours);
+            all.insert(all.end(), from.begin(), from.end());
+        }
+    return all;
+}
+
 // Neighbours go together: fewer tiles for the same work.
 std::vector<Tile> joined(const std::vector<Tile>& cells) {
     std::vector<Tile> rows, tiles;
@@ -57,6 +69,7 @@ Film::Film(FilmFormat format)
 
 bool Film::add(const Tile& tile, std::span<const Rgb> pixels) {
     tiling_.expect_valid(tile, pixels.size());
+    if (tile.coarse) return add_area(tile, with_neighbours(tile, pixels, format_.colours()));
     if (!format_.adaptive()) return add_area(tile, pixels);
     bool added = false;
     std::vector<Rgb> piece;

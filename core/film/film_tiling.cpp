@@ -80,8 +80,8 @@ void FilmTiling::expect_valid(const Tile& tile, std::size_t colours) const {
     if (!inside || !of_blocks || !of_look)
         throw Error("film", fmt::format("no tile of this picture: {}x{} pixels at {},{}, {} samples from {}",
                                         tile.width, tile.height, tile.x, tile.y, tile.samples, tile.first_sample));
-    if (colours != tile.pixels() * colours_)
-        throw Error("film", fmt::format("a tile of {} pixels and {} layers came with {} colours", tile.pixels(),
+    if (colours != tile.told() * colours_)
+        throw Error("film", fmt::format("a tile of {} pixels and {} layers came with {} colours", tile.told(),
                                         colours_, colours));
 }
 

@@ -33,8 +33,8 @@ inline constexpr std::uint32_t coarse_stride = 2;
 
 /// One block of samples, or a whole group of them, for a rectangle of pixels: the unit of work of a renderer. In a
 /// rehearsal only pixels whose x and y are multiples of the stride are looked at, and nobody wants to see them. In a
-/// first, coarse look at a picture pixels are counted from the tile's own corner, and the others show what their
-/// neighbour does.
+/// first, coarse look at a picture pixels are counted from the tile's own corner, and only those that are looked at are
+/// told, row by row; in the film the others show what their neighbour does.
 struct Tile {
     std::uint32_t x = 0, y = 0;  // of the upper left pixel, in the picture
     std::uint32_t width = 0, height = 0;
@@ -44,6 +44,11 @@ struct Tile {
     std::uint32_t coarse = 0;        // 1: it is a coarse look, of one sample
 
     std::size_t pixels() const { return std::size_t{width} * height; }
+    /// From one pixel that is told to the next.
+    std::uint32_t step() const { return coarse ? stride : 1; }
+    std::uint32_t columns() const { return (width - 1) / step() + 1; }
+    std::uint32_t rows() const { return (height - 1) / step() + 1; }
+    std::size_t told() const { return std::size_t{columns()} * rows(); }
     bool rehearses() const { return stride > 0 && !coarse; }
     bool looks_at(std::uint32_t px, std::uint32_t py) const {
         const std::uint32_t left = coarse ? x : 0, top = coarse ? y : 0;

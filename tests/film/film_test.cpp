@@ -243,6 +243,26 @@ TEST(Film, HasNoPixelThatIsMoreThanAFloatHolds) {
     EXPECT_GT(picture.beauty[1].r, 0);
 }
 
+TEST(Film, ShowsOfACoarseLookWhatNeighboursShow) {
+    FilmFormat format{7, 5, {"a", "b"}, 64};
+    Film film(coarse_look(format));
+    for (const Tile& tile : tiles_of(film.format(), 4)) {
+        std::vector<Rgb> told;
+        for (std::uint32_t y = tile.y; y < tile.y + tile.height; y += coarse_stride)
+            for (std::uint32_t x = tile.x; x < tile.x + tile.width; x += coarse_stride)
+                for (const float layer : {1.f, 2.f}) told.push_back({float(x), float(y), layer});
+        EXPECT_TRUE(film.add(tile, told));
+    }
+    ASSERT_TRUE(film.complete());
+    const Picture picture = film.picture();
+    for (std::uint32_t y = 0; y < 5; ++y)
+        for (std::uint32_t x = 0; x < 7; ++x)
+            for (std::size_t layer = 0; layer < 2; ++layer)
+                EXPECT_EQ(picture.layers[layer].pixels[y * 7 + x],
+                          (Rgb{float(x / 2 * 2), float(y / 2 * 2), float(layer + 1)}))
+                    << x << ',' << y;
+}
+
 TEST(Film, RefusesToBeNothing) {
     EXPECT_THROW(Film({0, 1, {"emission"}, 1}), Error);
     EXPECT_THROW(Film({1, 1, {}, 1}), Error);

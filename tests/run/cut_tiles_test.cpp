@@ -11,14 +11,14 @@ namespace lightnet::cut_tiles_test {
 // Two colours a pixel, which tell where it lies.
 std::vector<Rgb> pixels_of(const Tile& tile) {
     std::vector<Rgb> pixels;
-    for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
-        for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x)
+    for (std::uint32_t y = tile.y; y < tile.y + tile.height; y += tile.step())
+        for (std::uint32_t x = tile.x; x < tile.x + tile.width; x += tile.step())
             for (const float colour : {0.0f, 1.0f}) pixels.push_back({float(x), float(y), colour});
     return pixels;
 }
 
 TEST(CutTiles, PutPixelsWhereTheyBelongInWhateverOrderPiecesCome) {
-    for (const Tile tile : {Tile{32, 64, 32, 32, 16, 16}, Tile{5, 7, 37, 19, 0, 16}, Tile{0, 0, 64, 8, 0, 3}}) {
+    for (const Tile tile : {Tile{32, 64, 32, 32, 16, 16}, Tile{5, 7, 37, 19, 0, 16}, Tile{0, 0, 64, 8, 0, 3}, Tile{3, 5, 54, 51, 0, 1, 2, 1}}) {
         CutTiles cut;
         auto pieces = cut.cut(tile, 64);
         ASSERT_GT(pieces.size(), 1u);

@@ -17,10 +17,11 @@ FilmFormat format_of(std::uint32_t samples, float error = 0) { return {8, 8, {"l
 
 // What a place answers: samples that differ from pixel to pixel and have no exact sums, block by block.
 std::vector<Rgb> rendered(const Tile& tile) {
-    std::vector<Rgb> pixels(tile.pixels());
+    std::vector<Rgb> pixels(tile.told());
     for (const Tile& block : one_by_one(tile))
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            const auto x = tile.x + std::uint32_t(i % tile.width), y = tile.y + std::uint32_t(i / tile.width);
+            const auto x = tile.x + std::uint32_t(i % tile.columns()) * tile.step();
+            const auto y = tile.y + std::uint32_t(i / tile.columns()) * tile.step();
             Rgb sum;
             for (std::uint32_t s = 0; s < block.samples; ++s) {
                 const auto hash = (y * 8 + x) * 7919 + (block.first_sample + s) * 104729;

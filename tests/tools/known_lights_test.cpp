@@ -24,7 +24,7 @@ Film film_of(const FilmFormat& format, std::size_t left_out = 99, const KnownLig
     std::mt19937 random(7);
     std::uniform_real_distribution<float> light(0, 3);
     for (const Tile& tile : tiles_of(format, tile_size)) {
-        std::vector<Rgb> pixels(tile.pixels() * format.colours());
+        std::vector<Rgb> pixels(tile.told() * format.colours());
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const Rgb colour{light(random), light(random), light(random)};
             if (i % format.colours() != left_out) pixels[i] = colour;
@@ -63,6 +63,18 @@ TEST_P(Samples, OfALayerAreShownFromTheFirstOnAboutAsTheyAre) {
     const Picture shown = film_of(format, 1, &known).picture(), there = whole.picture();
     for (std::size_t i = 0; i < there.layers[1].pixels.size(); ++i)
         EXPECT_NEAR(shown.layers[1].pixels[i].r, there.layers[1].pixels[i].r, 1e-4f);
+}
+
+TEST(KnownLights, AreShownInACoarseLook) {
+    const FilmFormat format = format_of(16);
+    const Film whole = film_of(format);
+    KnownLights known(format, {});
+    ASSERT_TRUE(known.add(recipe_of(1), part_of(whole, 1)));
+    const Picture shown = film_of(coarse_look(format), 1, &known).picture(), there = whole.picture();
+    for (std::uint32_t y = 0; y < format.height; ++y)
+        for (std::uint32_t x = 0; x < format.width; ++x)
+            EXPECT_NEAR(shown.layers[1].pixels[y * format.width + x].r,
+                        there.layers[1].pixels[y / 2 * 2 * format.width + x / 2 * 2].r, 1e-4f);
 }
 
 INSTANTIATE_TEST_SUITE_P(Groups, Samples, testing::Values(1, 16, 24, 64, 200));

@@ -104,9 +104,9 @@ std::vector<Rgb> KnownLights::shown_in(const Tile& tile, std::span<const Rgb> pi
     const std::size_t all = format_.colours();
     for (const auto& [recipe, state, means] : lights_) {
         const auto& colours = recipe.colours;
-        for (std::uint32_t y = 0; y < tile.height; ++y)
-            for (std::uint32_t x = 0; x < tile.width; ++x) {
-                const std::size_t to = (std::size_t{y} * tile.width + x) * all;
+        std::size_t to = 0;
+        for (std::uint32_t y = 0; y < tile.height; y += tile.step())
+            for (std::uint32_t x = 0; x < tile.width; x += tile.step(), to += all) {
                 const std::size_t from =
                     (std::size_t{tile.y - window.y + y} * window.width + tile.x - window.x + x) * colours.size();
                 for (std::size_t k = 0; k < colours.size(); ++k)

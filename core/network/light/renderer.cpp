@@ -7,27 +7,25 @@
 namespace lightnet {
 namespace {
 
-// Gives each pixel of a coarse look what the one that was looked at shows, beside it or above.
-void show_neighbours(const Tile& tile, std::span<Rgb> pixels) {
-    const std::size_t colours = pixels.size() / tile.pixels();
-    for (std::size_t y = 0; y < tile.height; ++y)
-        for (std::size_t x = 0; x < tile.width; ++x) {
-            const std::size_t from = (y - y % tile.stride) * tile.width + x - x % tile.stride, to = y * tile.width + x;
-            if (from != to)
-                std::copy_n(pixels.begin() + std::ptrdiff_t(from * colours), colours,
-                            pixels.begin() + std::ptrdiff_t(to * colours));
-        }
+// Of all pixels of a coarse look those that are told.
+void tell(const Tile& tile, std::span<const Rgb> all, std::span<Rgb> told) {
+    const std::size_t colours = told.size() / tile.told();
+    auto next = told.begin();
+    for (std::size_t y = 0; y < tile.height; y += tile.stride)
+        for (std::size_t x = 0; x < tile.width; x += tile.stride)
+            next = std::ranges::copy(all.subspan((y * tile.width + x) * colours, colours), next).out;
 }
 
 }  // namespace
 
 void Renderer::render(const Tile& tile, std::span<Rgb> pixels) const {
-    if (tile.blocks() == 1) {
-        render_block(tile, pixels);
-        if (tile.coarse) show_neighbours(tile, pixels);
-        return;
-    }
     std::vector<Rgb> block;
+    if (tile.coarse) {
+        block.resize(pixels.size() / tile.told() * tile.pixels());
+        render_block(tile, block);
+        return tell(tile, block, pixels);
+    }
+    if (tile.blocks() == 1) return render_block(tile, pixels);
     for (const Tile& next : one_by_one(tile)) {
         if (next.block() == tile.block()) {
             render_block(next, pixels);

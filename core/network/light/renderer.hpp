@@ -15,9 +15,8 @@ class Renderer {
 public:
     virtual ~Renderer() = default;
 
-    /// Writes the sums of a tile: for each pixel (row by row) one colour per film layer, side by side. Blocks are added
-    /// up in the order of their index. Of a coarse look, pixels that are not looked at show their neighbour. `pixels`
-    /// comes zeroed.
+    /// Writes the sums of a tile: for each pixel that is told (row by row) one colour per film layer, side by side.
+    /// Blocks are added up in the order of their index. `pixels` comes zeroed.
     void render(const Tile& tile, std::span<Rgb> pixels) const;
 
 protected:

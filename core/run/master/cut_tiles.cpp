@@ -8,15 +8,17 @@ namespace {
 
 constexpr std::uint32_t least_side = 8;  // pixels: below that, rays of neighbours would hardly be traced together
 
-// Halves the longer side.
+// Halves the longer side; of a coarse look so that both halves look at what the whole did.
 bool halve(const Tile& tile, Tile& first, Tile& second) {
     first = second = tile;
+    const std::uint32_t step = tile.step();
+    const auto half = [&](std::uint32_t side) { return side / 2 / step * step; };
     if (std::max(tile.width, tile.height) < 2 * least_side) return false;
     if (tile.width >= tile.height) {
-        first.width = tile.width / 2;
+        first.width = half(tile.width);
         second.x += first.width, second.width -= first.width;
     } else {
-        first.height = tile.height / 2;
+        first.height = half(tile.height);
         second.y += first.height, second.height -= first.height;
     }
     return true;
@@ -43,11 +45,13 @@ std::vector<Tile> CutTiles::cut(const Tile& tile, std::size_t pixels) {
 std::optional<CutTiles::Whole> CutTiles::put(const Tile& piece, std::span<const Rgb> pixels) {
     const auto part = std::move(parts_.extract(key_of(piece)).mapped());
     auto& whole = part->whole;
-    const std::size_t colours = pixels.size() / piece.pixels();
-    whole.pixels.resize(whole.tile.pixels() * colours);
-    for (std::size_t row = 0; row < piece.height; ++row) {
-        const std::size_t first = (piece.y - whole.tile.y + row) * whole.tile.width + (piece.x - whole.tile.x);
-        std::ranges::copy(pixels.subspan(row * piece.width * colours, piece.width * colours),
+    const std::size_t colours = pixels.size() / piece.told(), columns = piece.columns();
+    const std::uint32_t step = piece.step();
+    whole.pixels.resize(whole.tile.told() * colours);
+    for (std::size_t row = 0; row < piece.rows(); ++row) {
+        const std::size_t first =
+            ((piece.y - whole.tile.y) / step + row) * whole.tile.columns() + (piece.x - whole.tile.x) / step;
+        std::ranges::copy(pixels.subspan(row * columns * colours, columns * colours),
                           whole.pixels.begin() + static_cast<std::ptrdiff_t>(first * colours));
     }
     if (--part->missing > 0) return std::nullopt;

@@ -129,7 +129,7 @@ inline std::size_t work_in(const Message& message) {
 /// How many colours answer one question when each has `width`.
 inline std::size_t answers_to(const Query&, std::size_t width) { return width; }
 inline std::size_t answers_to(const Tile& tile, std::size_t width) {
-    return tile.rehearses() ? 0 : tile.pixels() * width;
+    return tile.rehearses() ? 0 : tile.told() * width;
 }
 
 inline std::size_t answers_to(const Step&, std::size_t) { return 0; }  // but bytes

@@ -171,7 +171,7 @@ std::vector<Rgb> SerialRun::render(const Tile& tile) {
 }
 
 std::vector<Rgb> SerialRun::render_as_prepared(const Tile& tile) {
-    std::vector<Rgb> pixels(tile.pixels() * network_.width_of(image_));
+    std::vector<Rgb> pixels((tile.rehearses() ? tile.pixels() : tile.told()) * network_.width_of(image_));
     const auto begun = std::chrono::steady_clock::now();
     const ScopedActivity turned(gauge_, Gauge::at(image_));
     const TellingOfLostRays telling(assembly_.keeper_of_lost_rays());
