@@ -11,15 +11,15 @@ struct Rgb {
     friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-inline Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-inline Rgb operator-(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-inline Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-inline Rgb operator*(Rgb a, float s) { return {a.r * s, a.g * s, a.b * s}; }
-inline Rgb operator*(float s, Rgb a) { return a * s; }
-inline Rgb operator/(Rgb a, float s) { return {a.r / s, a.g / s, a.b / s}; }
-inline Rgb& operator+=(Rgb& a, Rgb b) { return a = a + b; }
-inline Rgb& operator*=(Rgb& a, Rgb b) { return a = a * b; }
-inline Rgb& operator*=(Rgb& a, float s) { return a = a * s; }
+[[gnu::always_inline]] inline Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+[[gnu::always_inline]] inline Rgb operator-(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
+[[gnu::always_inline]] inline Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+[[gnu::always_inline]] inline Rgb operator*(Rgb a, float s) { return {a.r * s, a.g * s, a.b * s}; }
+[[gnu::always_inline]] inline Rgb operator*(float s, Rgb a) { return a * s; }
+[[gnu::always_inline]] inline Rgb operator/(Rgb a, float s) { return {a.r / s, a.g / s, a.b / s}; }
+[[gnu::always_inline]] inline Rgb& operator+=(Rgb& a, Rgb b) { return a = a + b; }
+[[gnu::always_inline]] inline Rgb& operator*=(Rgb& a, Rgb b) { return a = a * b; }
+[[gnu::always_inline]] inline Rgb& operator*=(Rgb& a, float s) { return a = a * s; }
 
 inline float max_component(Rgb a) { return std::max({a.r, a.g, a.b}); }
 inline bool is_black(Rgb a) { return a.r == 0 && a.g == 0 && a.b == 0; }

@@ -53,6 +53,7 @@ std::vector<Part> ask_all(const Inputs& inputs, std::span<const Query> questions
     std::vector<Asking> asked;
     asked.reserve(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) {
+        if (!inputs[i].port) continue;
         auto& part = parts.emplace_back(empty_part(inputs, i, questions.size()));
         asked.emplace_back(*part.input, questions, part.answers);
     }
@@ -62,21 +63,16 @@ std::vector<Part> ask_all(const Inputs& inputs, std::span<const Query> questions
 
 Part ask(const Inputs& inputs, std::size_t index, std::span<const Query> questions) {
     Part part = empty_part(inputs, index, questions.size());
-    Asking(*part.input, questions, part.answers).finish();
+    if (part.input->port) Asking(*part.input, questions, part.answers).finish();
     return part;
 }
 
 Rgb ask_one(const Input& input, const Query& question) {
     assert(input.width() == 1 && "an input with layers is asked with room for all of them");
     Rgb answer;
+    if (!input.port) return answer;
     if (const auto ticket = input.port->begin({&question, 1}, {&answer, 1})) input.port->finish(ticket);
     return answer;
-}
-
-void add(const Part& part, std::span<Rgb> answers, float weight) {
-    each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& colour) {
-        answers[q * part.layers + layer] += colour * weight;
-    });
 }
 
 }  // namespace lightnet

@@ -15,7 +15,7 @@ namespace lightnet {
 /// One input of a node, in the order in which the graph lists them.
 struct Input {
     std::string name;                      // of the node that answers
-    Port* port = nullptr;                  // owned by the place
+    Port* port = nullptr;                  // owned by the place; null: the answer is black, and nobody is asked
     std::vector<std::uint32_t> layers{0};  // which of the asker's layers each colour of an answer belongs to
 
     bool facts = false;     // gives no light: see LightTraits
@@ -60,7 +60,7 @@ struct Part {
     std::vector<Rgb> answers;
 };
 
-/// Asks all inputs the same questions; all are asked before any is awaited.
+/// Asks all inputs the same questions; all are asked before any is awaited. Those that are black have no part.
 std::vector<Part> ask_all(const Inputs& inputs, std::span<const Query> questions);
 
 /// Asks one input.
@@ -78,6 +78,10 @@ void each_colour(const Part& part, With&& with) {
 }
 
 /// answers += weight × part, each colour into its own layer.
-void add(const Part& part, std::span<Rgb> answers, float weight = 1);
+inline void add(const Part& part, std::span<Rgb> answers, float weight = 1) {
+    each_colour(part, [&](std::size_t q, std::size_t layer, const Rgb& colour) {
+        answers[q * part.layers + layer] += colour * weight;
+    });
+}
 
 }  // namespace lightnet

@@ -106,7 +106,7 @@ Inputs Assembly::inputs_of(std::size_t node) {
             input.layers = positions(of_node[node], of_node[node], 0);
         if (image)
             for (auto& layer : input.layers) layer = network_.layers.of_colour[layer];
-        input.port = port_between(node, asked, input.width());
+        if (network_.graph.nodes[asked].kind != left_out_kind) input.port = port_between(node, asked, input.width());
         inputs.push_back(std::move(input));
     }
     if (image)
