@@ -1,6 +1,7 @@
 // Time from an edit to the first picture of a session, a coarse look, written to its files, and what it goes into.
 // Edits of the camera, of a node, of what is around the scene, of a lamp and a material by their names, and in the
-// scene's file; on two threads and on two daemons. Scenes of the project, and real ones where they are.
+// scene's file, where instances of an object are moved, too; on two threads and on two daemons. Scenes of the project,
+// and real ones where they are.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -49,15 +50,35 @@ std::string text_of(const fs::path& file) {
     return text.str();
 }
 
+/// Three instances of an object of so many triangles, of which the first is moved, in words of pbrt.
+std::string instances(int number) {
+    constexpr int side = 100;
+    std::string points, triangles;
+    for (int y = 0; y <= side; ++y)
+        for (int x = 0; x <= side; ++x) points += fmt::format("{} {} {} ", x, y, (x * y) % 7);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const int first = y * (side + 1) + x;
+            triangles += fmt::format("{} {} {} {} {} {} ", first, first + 1, first + side + 1, first + 1,
+                                     first + side + 2, first + side + 1);
+        }
+    std::string text = "ObjectBegin \"wave\"\nMaterial \"diffuse\"\nShape \"trianglemesh\" \"point3 P\" [ " + points +
+                       "] \"integer indices\" [ " + triangles + "]\nObjectEnd\n";
+    for (int i = 0; i < 3; ++i)
+        text += fmt::format("AttributeBegin\nTranslate {} {} {}\nObjectInstance \"wave\"\nAttributeEnd\n",
+                            100 + 100 * i + (i == 0 ? 0.1 * number : 0), 100, 200);
+    return text;
+}
+
 /// A session whose edits go through a pipe with a name.
 class Session {
 public:
-    Session(const Edited& scene, const std::string& layout)
+    Session(const Edited& scene, const std::string& layout, const std::string& more)
         : file_(folder_.file("scene.pbrt")), text_(text_of(scene.file)) {
         if (!scene.rest.empty())
             for (const auto& entry : fs::directory_iterator(scene.rest))
                 fs::create_symlink(entry.path(), folder_.path() / entry.path().filename());
-        std::ofstream(file_) << text_;
+        std::ofstream(file_) << text_ << more;
         std::ofstream(folder_.file("g.lua"))
             << "scene = Scene { \"scene.pbrt\" }\ndirect = DirectLighting { samples = 1 }\nbounce = PathTracing { "
                "samples = 1 }\nboth = Combine { direct, bounce }\nimage = RayTracer { both, scene = scene, samples = "
@@ -89,9 +110,10 @@ public:
         const auto begin = at + name.size(), end = text.find_first_of(" ]", begin + 1);
         text.replace(begin, end - begin,
                      fmt::format(" {}", std::stod(text.substr(begin)) * (1 + 0.001 * (number + 1))));
-        std::ofstream(file_ + ".new") << text;
-        fs::rename(file_ + ".new", file_);
+        put(text);
     }
+    /// Something else behind what its file has.
+    void write_behind(const std::string& more) const { put(text_ + more); }
     /// The first one of an edit; what it took, in ms.
     std::map<std::string, double> wait_for_picture(std::uint64_t edit) {
         for (std::string line; next(line);) {
@@ -106,6 +128,10 @@ public:
     }
 
 private:
+    void put(const std::string& text) const {
+        std::ofstream(file_ + ".new") << text;
+        fs::rename(file_ + ".new", file_);
+    }
     struct Closes {
         void operator()(std::FILE* file) const { ::pclose(file); }
     };
@@ -142,6 +168,8 @@ void edit(const Session& session, const Edited& scene, const std::string& kind, 
     } else if (kind == "material_by_name") {
         session.say(
             fmt::format(R"({{"set":{{"scene.colours":{{"{}":[0.5,{},0.4]}}}}}})", scene.painted, 0.5 + 0.002 * number));
+    } else if (kind == "moved") {
+        session.write_behind(instances(number + 1));
     } else {
         session.write(kind == "lamp" ? scene.lamp : scene.material, number);
     }
@@ -155,9 +183,9 @@ double at(double part, std::vector<double> times) {
 // Each edit comes while the picture of the one before is at work.
 void measure(const Edited& scene, const std::string& name, const std::string& layout) {
     for (const std::string kind :
-         {"camera", "node", "around", "lamp_by_name", "material_by_name", "lamp", "material"}) {
+         {"camera", "node", "around", "lamp_by_name", "material_by_name", "lamp", "material", "moved"}) {
         if (kind == "lamp" && scene.lamp.empty()) continue;
-        Session session(scene, layout);
+        Session session(scene, layout, kind == "moved" ? instances(0) : "");
         std::vector<double> times;
         std::map<std::string, std::vector<double>> parts;
         for (int i = 0; i < edits; ++i) {
@@ -174,7 +202,7 @@ void measure(const Edited& scene, const std::string& name, const std::string& la
             std::printf(" %s %.0f/%.0f", part, at(0.5, parts[part]), at(0.95, parts[part]));
         std::printf("\n");
         bench::print_figure("session " + scene.name + " " + name + " " + kind, {at(0.95, times)}, {"", "ms ", 1, 0},
-                            scene.goal, false);
+                            kind == "moved" ? 120 : scene.goal, false);
     }
 }
 

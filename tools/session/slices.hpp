@@ -9,7 +9,7 @@ namespace lightnet {
 /// What a run does between two looks around.
 struct Slices {
     static constexpr std::chrono::milliseconds now_and_then{50};  // looks around
-    static constexpr std::chrono::milliseconds at_once{4};        // looks whether it is wanted, where that changes
+    static constexpr std::chrono::milliseconds at_once{1};        // looks whether it is wanted, where that changes
 
     std::chrono::milliseconds slice = now_and_then;
 
