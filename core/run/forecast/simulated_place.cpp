@@ -32,10 +32,11 @@ SimulatedPort* SimulatedPlace::port(std::size_t node) {
 SimulatedPort& SimulatedPlace::connect(std::size_t node, std::size_t helpers, Strategy strategy,
                                        SimulatedReplicas::Send send) {
     const double own = kind_.holds[node] ? kind_.light[node].seconds / speed_ : 0;
+    const bool asks_on = std::ranges::any_of(costs_.edges, [&](const auto& edge) { return edge.from == node; });
     return *ports_
                 .emplace(node, std::make_unique<SimulatedPort>(
-                                   events_, SimulatedPort::Target{node, own, helpers, [this] { go_on(); }}, strategy,
-                                   std::move(send)))
+                                   events_, SimulatedPort::Target{node, own, helpers, asks_on, [this] { go_on(); }},
+                                   strategy, std::move(send)))
                 .first->second;
 }
 

@@ -65,16 +65,18 @@ void SimulatedPort::share_out() {
     while (waiting_ > 0) {
         const auto size =
             std::min({full(), std::max(waiting_ / (2 * (target_.helpers + 1)), relief::least_bundle), waiting_});
-        const auto soonest = replicas_.scheduler().order().soonest(size);
-        const double own = target_.own_seconds * static_cast<double>(waiting_);
-        if (!soonest || *soonest > relief::enough || *soonest > relief::worth_waiting * own) return;
+        if (!relief::may_go(replicas_.scheduler().order(), size, waiting_, target_.own_seconds)) {
+            if (events_.now() - faded_ >= relief::fades_in) faded_ = events_.now(), replicas_.fade(relief::fades_in);
+            return;
+        }
         send(size);
     }
 }
 
 std::optional<SimulatedAsk> SimulatedPort::take_own() {
     if (target_.own_seconds <= 0 || waiting_ == 0 || own_ >= relief::most_own) return std::nullopt;
-    const auto most = static_cast<std::size_t>(std::clamp(relief::own_piece / target_.own_seconds, 1.0, 1024.0));
+    const auto most =
+        relief::piece_of_own(target_.own_seconds, waiting_, target_.helpers, Tuning{}.bundle, target_.asks_on);
     ++own_;
     auto ask = take(std::min(waiting_, most));
     ask.answered = [this, answered = std::move(ask.answered)](const SimulatedLoad& load) {

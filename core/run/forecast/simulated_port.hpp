@@ -18,6 +18,7 @@ public:
         std::size_t node = 0;
         double own_seconds = 0;  // of a question that this place answers itself; 0: it does not
         std::size_t helpers = 0;
+        bool asks_on = false;                 // the node
         std::function<void()> heard = [] {};  // an answer has come: the place may go on
     };
     SimulatedPort(EventQueue& events, Target target, Strategy strategy, SimulatedReplicas::Send send);
@@ -52,6 +53,7 @@ private:
     std::size_t waiting_ = 0, own_ = 0;
     double carried_ = 0;  // a part of a question
     double oldest_ = 0;   // when it came
+    double faded_ = 0;    // when helpers were last thought to be quicker than they were
 };
 
 }  // namespace lightnet

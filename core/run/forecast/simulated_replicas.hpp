@@ -37,6 +37,8 @@ public:
     /// A replica, by the next number.
     void join(Scheduler::Host host, std::uint32_t places, bool within_process);
     void add(SimulatedAsk ask);
+    /// See Scheduler::Faded.
+    void fade(double after) { tell(Scheduler::Faded{after}); }
     std::size_t size() const { return scheduler_.replicas().present(); }
     std::size_t places() const { return scheduler_.replicas().places(); }
     const Scheduler& scheduler() const { return scheduler_; }

@@ -33,7 +33,8 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       rounds_(fibers_, tuning.side_fibers, wake()),
       inbox_({network, tuning_, gauge, counters_}),
       ports_({network, me_, run, tuning_, carrier, gauge, counters_, fibers_, wake(),
-              [this]() -> Assembly& { return assembly_; }, [this] { pause(); }},
+              [this]() -> Assembly& { return assembly_; }, [this] { pause(); },
+              [this](std::size_t node, std::chrono::nanoseconds took) { inbox_.answered_here(node, took); }},
              plan_),
       locks_(fibers_, wake(), reply()),
       meter_(
@@ -267,7 +268,7 @@ PlaceRecord Place::record() const {
     meter_.write(network_.graph, record);
     const auto& nodes = network_.graph.nodes;
     for (std::size_t node = 0; node < nodes.size(); ++node)
-        if (inbox_.figures(node).answered) record.nodes[nodes[node].name] = inbox_.figures(node);
+        if (inbox_.figures(node).busy_ns) record.nodes[nodes[node].name] = inbox_.figures(node);
     for (const auto& [node, spent] : preparer_.spent()) {
         auto& to = record.nodes[nodes[node].name];
         to.shards = spent.shards, to.prepare_ns = spent.ns, to.prepared = spent.bytes;

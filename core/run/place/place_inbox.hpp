@@ -1,6 +1,7 @@
 // The asks that wait at a place, by node, and which of them comes next.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -49,6 +50,10 @@ public:
     Work begin(const std::vector<Message>& asks);
     /// It has taken so long; what is to be said of the node's load.
     Load end(const Work& work, std::uint64_t nanoseconds);
+    /// A question of this place's own nodes, which others could have answered, has taken so long.
+    void answered_here(std::size_t node, std::chrono::nanoseconds took) {
+        nodes_[node].figures.busy_ns += static_cast<std::uint64_t>(took.count());
+    }
     /// Where the reply to one of them goes.
     Route let_go(const AsksInHand::Name& name) { return in_hand_.let_go(name); }
 

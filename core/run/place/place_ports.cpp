@@ -110,7 +110,7 @@ void PlacePorts::use(const Plan& plan) {
 
 bool PlacePorts::flush(bool idle) {
     const auto now = Clock::now();
-    if (!relieved_.empty()) share_out();
+    if (!relieved_.empty()) share_out(now);
     bool sent = false;
     for (auto& [key, remote] : remotes_) sent |= remote.port->flush(now, idle);
     return sent;

@@ -40,6 +40,8 @@ public:
         std::function<void(Fibers::Fiber*)> wake;
         std::function<Assembly&()> assembly;  // not made yet when they are
         std::function<void()> pause;          // called at every ask of a node of this place
+        /// Told how long an answer took to what helpers have left.
+        std::function<void(std::size_t node, std::chrono::nanoseconds)> answered_own;
     };
     PlacePorts(Lent lent, const Plan& plan);
 
@@ -65,6 +67,7 @@ private:
         // Where others answer for this place:
         double own_seconds = 0;      // that one of its questions takes here; 0: not known
         std::size_t own_fibers = 0;  // that answer them here now
+        Clock::time_point faded{};   // when helpers were last thought to be quicker than they were
     };
 
     // A port to a node of this place whose questions others could answer, too.
@@ -72,6 +75,7 @@ private:
         Key key;
         RoutingPort* port;
         std::size_t helpers;
+        bool asks_on;  // the node
     };
 
     Port* port_to_one(Key key);
@@ -82,7 +86,7 @@ private:
     std::size_t helpers_of(std::size_t node) const;
     Plan plan_for(std::size_t node) const;
     void lead(Key key, RoutingPort& port);
-    void share_out();
+    void share_out(Clock::time_point now);
     void answer_own(const Relieved& relieved, const Bundle<Query>& bundle);
 
     Lent at_;

@@ -13,6 +13,8 @@
 namespace lightnet {
 namespace {
 
+constexpr auto relief_fades_in = std::chrono::duration<double>(relief::fades_in);
+
 // Other places that hold the node, but not all that this one holds: such have as much to do as this one.
 std::vector<std::uint32_t> helpers(const Plan& plan, const PlaceAt& me, std::size_t node) {
     std::vector<std::uint32_t> helpers;
@@ -47,14 +49,13 @@ void PlacePorts::lead(Key key, RoutingPort& port) {
     const auto count = called_here(key.first) ? helpers_of(key.first) : 0;
     port.use(called_here(key.first), count > 0);
     if (count == 0) return;
-    relieved_.push_back({key, &port, count});
+    const auto edges = asking_edges(at_.network.graph, at_.network.layers, at_.network.registry);
+    const bool asks_on = std::ranges::any_of(edges, [&](const auto& edge) { return edge.from == key.first; });
+    relieved_.push_back({key, &port, count, asks_on});
     if (const auto found = remotes_.find(key); found != remotes_.end()) found->second.port->keep_back(true);
 }
 
-// Helpers get bundles as long as they answer one soon. As a rule this place has something else to do meanwhile: so it
-// may take them a little longer than this place alone would need for all that waits.
-// DECISIONS: relief-by-the-idle
-void PlacePorts::share_out() {
+void PlacePorts::share_out(Clock::time_point now) {
     for (const auto& relieved : relieved_) {
         const auto found = remotes_.find(relieved.key);
         if (found == remotes_.end()) continue;
@@ -62,10 +63,11 @@ void PlacePorts::share_out() {
         while (const std::size_t waiting = remote.port->waiting()) {
             const auto size = std::min(full_bundle(at_.tuning.bundle, remote.own_seconds),
                                        std::max(waiting / (2 * (relieved.helpers + 1)), relief::least_bundle));
-            const auto soonest = remote.port->replicas().scheduler().order().soonest(std::min(size, waiting));
-            if (!soonest || *soonest > relief::enough) break;
-            if (remote.own_seconds > 0 && *soonest > relief::worth_waiting * remote.own_seconds * double(waiting))
+            auto& replicas = remote.port->replicas();
+            if (!relief::may_go(replicas.scheduler().order(), std::min(size, waiting), waiting, remote.own_seconds)) {
+                if (now - remote.faded >= relief_fades_in) remote.faded = now, replicas.fade(relief::fades_in);
                 break;
+            }
             remote.port->share(size);
         }
     }
@@ -77,12 +79,8 @@ bool PlacePorts::start_own() {
         if (found == remotes_.end() || found->second.port->waiting() == 0) continue;
         auto& remote = found->second;
         if (remote.own_fibers >= relief::most_own) continue;
-        const double seconds = remote.own_seconds;
-        const auto size =
-            seconds > 0 ? std::clamp<std::size_t>(static_cast<std::size_t>(std::min(relief::own_piece / seconds, 1e9)),
-                                                  1, at_.tuning.bundle)
-                        : relief::least_bundle;
-        auto bundle = remote.port->take_back(size);
+        auto bundle = remote.port->take_back(relief::piece_of_own(
+            remote.own_seconds, remote.port->waiting(), relieved.helpers, at_.tuning.bundle, relieved.asks_on));
         at_.fibers.start(at_.network.graph.nodes[relieved.key.first].name.c_str(),
                          [this, relieved, bundle = std::move(bundle)] { answer_own(relieved, bundle); });
         return true;
@@ -103,8 +101,9 @@ void PlacePorts::answer_own(const Relieved& relieved, const Bundle<Query>& bundl
     } catch (const NodeError& error) {
         remote.port->failed(bundle, {error.what(), error.host()});
     }
-    const double seconds =
-        std::chrono::duration<double>(at_.fibers.running_time(at_.fibers.current())).count() / double(questions.size());
+    const auto ran = at_.fibers.running_time(at_.fibers.current());
+    at_.answered_own(relieved.key.first, ran);
+    const double seconds = std::chrono::duration<double>(ran).count() / double(questions.size());
     remote.own_seconds = remote.own_seconds > 0 ? 0.8 * remote.own_seconds + 0.2 * seconds : seconds;
 }
 

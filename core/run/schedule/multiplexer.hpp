@@ -86,6 +86,9 @@ public:
     void foresee(std::size_t questions) { tell(Scheduler::Foreseen{questions}); }
     /// Are as many replicas idle as have something to do?
     bool half_idle() const { return scheduler_.half_idle(); }
+    /// What is known of replicas that had nothing to do for so many seconds is old: most of what makes them look slow
+    /// is forgotten.
+    void fade(double after) { tell(Scheduler::Faded{after}); }
     /// Nobody wants any more what is not under way.
     void drop_waiting() { tell(Scheduler::Dropped{}); }
     /// Nobody wants this bundle any more, under way or not. It doesn't come back to its owner.

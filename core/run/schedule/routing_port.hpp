@@ -15,6 +15,8 @@ namespace lightnet {
 class RoutingPort final : public Port {
 public:
     using Made = std::function<Port*()>;
+    static constexpr std::size_t worth_sharing = 16;  // questions of an ask; fewer are called
+
     RoutingPort(Made call, Made bundles) : make_call_(std::move(call)), make_bundles_(std::move(bundles)) {}
 
     /// `shared`: others answer for this place, too.
@@ -39,8 +41,6 @@ public:
     }
 
 private:
-    static constexpr std::size_t worth_sharing = 16;  // questions of an ask
-
     Port& bundles() {
         if (!bundles_) bundles_ = make_bundles_();
         return *bundles_;

@@ -83,6 +83,9 @@ struct ScheduleTerms : ScheduleIds {
     struct Refused {  // it could not be sent after all
         CopyId copy;
     };
+    struct Faded {  // what is known of replicas that had nothing to do for so many seconds is old
+        double after;
+    };
     struct Dropped {};  // nobody wants any more what is not under way
     struct Forgotten {  // nobody wants this work any more, under way or not
         WorkId work;
@@ -91,7 +94,7 @@ struct ScheduleTerms : ScheduleIds {
         bool again = false;
     };
     using Event = std::variant<Added, Foreseen, Joined, HostsExpected, Resized, Draining, Gone, Replied, Failed, Alive,
-                               Refused, Dropped, Forgotten, Tick>;
+                               Refused, Faded, Dropped, Forgotten, Tick>;
 
     // ---- what is to be done ----
     struct Send {

@@ -30,12 +30,12 @@ public:
     void operator()(const Terms::Failed& event);
     void operator()(const Terms::Alive& event) { state_.book[event.replica].last_sign = now_; }
     void operator()(const Terms::Refused& event);
+    void operator()(const Terms::Faded& event);
     void operator()(const Terms::Dropped& event);
     void operator()(const Terms::Forgotten& event);
     void operator()(const Terms::Tick& event);
 
 private:
-    std::size_t under_way(Terms::Host host) const;
     void go(Terms::Replica replica, bool died, bool alone);
     void blame(Item& item, const Suspects::Loss& loss);
     Item* take_copy(Terms::CopyId copy, const InFlight::Closed& closed);
@@ -47,6 +47,15 @@ private:
     ScheduleState& state_;
     Terms::Time now_;
 };
+
+// Copies that a host has.
+std::size_t under_way(const ScheduleState& state, Terms::Host host) {
+    std::size_t copies = 0;
+    const auto& hosts = state.book.on_hosts();
+    if (const auto found = hosts.find(host); found != hosts.end())
+        for (const auto replica : found->second) copies += state.in_flight.of(replica).size();
+    return copies;
+}
 
 // ---- work comes and goes ----
 
@@ -94,17 +103,9 @@ void Reaction::operator()(const Terms::Draining& event) {
 void Reaction::operator()(const Terms::Gone& event) {
     auto& book = state_.book;
     std::map<Terms::Host, std::size_t> had;  // when it died: its replicas go together
-    for (const auto replica : event.replicas) had[book[replica].host] = under_way(book[replica].host);
+    for (const auto replica : event.replicas) had[book[replica].host] = under_way(state_, book[replica].host);
     for (const auto replica : event.replicas)
         if (book[replica].present) go(replica, event.died, had[book[replica].host] == 1);
-}
-
-std::size_t Reaction::under_way(Terms::Host host) const {
-    std::size_t copies = 0;
-    const auto& hosts = state_.book.on_hosts();
-    if (const auto found = hosts.find(host); found != hosts.end())
-        for (const auto replica : found->second) copies += state_.in_flight.of(replica).size();
-    return copies;
 }
 
 void Reaction::go(Terms::Replica replica, bool died, bool alone) {
@@ -204,6 +205,18 @@ void Reaction::operator()(const Terms::Refused& event) {
     replica.refused = true;
     state_.refresh(closed->replica);
     if (Item* const item = take_copy(event.copy, *closed)) state_.ask_again(*item);
+}
+
+// Who is not asked tells nothing of having become quicker, or of what others don't ask there any more.
+void Reaction::operator()(const Terms::Faded& event) {
+    for (Terms::Replica replica = 0; replica < state_.book.end(); ++replica) {
+        auto& state = state_.book[replica];
+        const bool idle = state.present && !state.reserve && state_.in_flight.of(replica).copies.empty();
+        if (!idle || now_ - state.last_reply < event.after) continue;
+        state_.order.times().fade(replica);
+        state.others = 0;
+        state_.refresh(replica);
+    }
 }
 
 // ---- time to decide ----

@@ -34,6 +34,13 @@ void ServiceTimes::measure(Replica replica, double seconds, std::size_t question
     said_ = said_ > 0 ? fading * said_ + (1 - fading) * reported : reported;
 }
 
+void ServiceTimes::fade(Replica replica) {
+    constexpr double kept = 0.1, quicker = 1.0 / 64;
+    auto& measured = at(replica);
+    measured.seconds *= kept * quicker, measured.questions *= kept;
+    measured.reported *= quicker;
+}
+
 void ServiceTimes::take_part(Replica replica, std::uint32_t places) {
     auto& measured = at(replica);
     const double service = of(replica);

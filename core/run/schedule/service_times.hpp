@@ -22,6 +22,9 @@ public:
     /// It has spent so many seconds on so many questions; `reported`: seconds per question by its own account, 0: it
     /// said nothing.
     void measure(Replica replica, double seconds, std::size_t questions, double reported);
+    /// What is known of it is old: it may be far quicker by now, and what comes next is
+    /// what counts.
+    void fade(Replica replica);
     /// How many places of it are a part of the rate of all; 0: none.
     void take_part(Replica replica, std::uint32_t places);
 
