@@ -177,6 +177,53 @@ TEST(Moving, LetsGoOfWhatHasLeft) {
     cluster.finish();
 }
 
+// What a node has prepared goes from the host that has it to the one that is to have it, past the launcher.
+TEST(Moving, TakesResultsFromWhoHasThem) {
+    const auto ref = [](const char* name) { return Value{NodeRef{name}}; };
+    constexpr std::size_t photons = 1;
+    const Learning learning(
+        with_learner(),
+        {node("scene", "Scene", {Value{std::string("none.pbrt")}}),
+         node("photons", "PhotonMap", {},
+              {{"photons", Value{20000.0}}, {"gather", Value{20.0}}, {"paths", Value{std::string("all")}}}),
+         node("image", "RayTracer", {ref("photons")}, seen())});
+    const auto expected = learning.serial();
+    const Folder folder;
+    HostThread one(learning.registry, 1, folder.file("one")), two(learning.registry, 1, folder.file("two"));
+    std::uint32_t holder = 0;
+    bool moved = false;
+    auto options = cluster_of(learning, {one.endpoint(), two.endpoint()});
+    options.plan = [&](const std::vector<HostOffer>& there) {
+        Plan all = plan(learning.network->graph, learning.registry, {}, there);
+        std::erase_if(all.places_of[photons],
+                      [&](auto place) { return all.places[place].host != there[holder].endpoint; });
+        return all;
+    };
+    options.moved = [&] { return std::exchange(moved, false); };
+    const std::atomic<bool> never{false};
+    Cluster cluster(std::move(options));
+    cluster.gather(slowdown * 20s, never);
+    Coordinator coordinator(learning.options(), cluster);
+    coordinator.propose(cluster.plan());
+    ASSERT_TRUE(coordinator.prepare(slowdown * 20s));
+    const auto sent_before = cluster.counters().file_bytes;
+    const auto result = coordinator.last_result(photons);
+    ASSERT_NE(result, nullptr);
+    ASSERT_GT(result->size(), 200'000u) << "else it goes along with the step that names it";
+    holder = 1, moved = true;
+    const auto end = std::chrono::steady_clock::now() + slowdown * 20s;
+    while (std::chrono::steady_clock::now() < end) {
+        coordinator.wait(1ms);
+        while (coordinator.receive()) {
+        }
+        if (!moved && coordinator.in_force() == cluster.plan()) break;
+    }
+    ASSERT_TRUE(coordinator.in_force() == cluster.plan());
+    EXPECT_EQ(cluster.counters().file_bytes, sent_before) << "the launcher has sent it once, to the first";
+    EXPECT_TRUE(learning.render(coordinator) == expected);
+    cluster.finish();
+}
+
 TEST(Moving, GivesTheBytesOfASerialRun) {
     const MovingNetwork learning(learning_nodes());
     const auto expected = learning.serial();

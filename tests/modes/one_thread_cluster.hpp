@@ -77,18 +77,19 @@ public:
         if (!host || host->state != State::ready) return false;
         if (host->has.contains(name)) return true;
         if (!host->expects.insert(name).second) return false;
-        send_down(*host, [this, name, bytes](Host& at) {
+        std::vector<std::string> holders;
+        for (const auto& other : hosts_)
+            if (world_.by_holders && &other != host && other.has.contains(name)) holders.push_back(other.name);
+        send_down(*host, [this, name, bytes, holders](Host& at) {
+            known_results_[name] = bytes;
             if (at.process->brought.contains(name)) return say_it_is_here(at, name);
-            send_up(at, [this, name, bytes](Host& lacking) {
-                send_down(lacking, [this, name, bytes](Host& to_have) {
-                    if (content_hash(*bytes) != name) faults_.push_back(to_have.name + ": a result arrived damaged");
-                    to_have.process->brought[name] = bytes;
-                    say_it_is_here(to_have, name);
-                });
-            });
+            at.process->from_others.want(name, bytes->size(), holders);
+            fetch_soon(at);
         });
         return false;
     }
+    /// How often a result came from another host, and how often one was left for the launcher that was asked of one.
+    std::pair<std::size_t, std::size_t> fetched() const { return {came_from_others_, left_to_launcher_}; }
     void adopt(const Plan& plan) override {
         in_force_ = std::make_shared<const Plan>(plan);
         if (tells()) tell("in force " + to_json(plan));
@@ -127,6 +128,67 @@ private:
             if (host.line == line && host.process && host.process_number == process) arrives(host);
         });
     }
+    // ---- results, from hosts that have them
+    // --------------------------------------------------------------------------
+
+    void fetch_soon(Host& host) {
+        if (std::exchange(host.process->fetches, true)) return;
+        at(std::max(seconds() + 0.01, host.frozen_until), [this, &host, process = host.process_number] {
+            if (host.process && host.process_number == process) fetch(host);
+        });
+    }
+    static LinePace::Time time_of(double seconds) {
+        return LinePace::Time(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * (1 + seconds))));
+    }
+    void fetch(Host& host) {
+        auto& process = *host.process;
+        process.fetches = false;
+        process.from_others.go_on(time_of(seconds()), [&](const ResultsFromOthers::Ask& ask) {
+            const auto line = line_to(host.name, ask.host);
+            at(seconds() + delay(), [this, &host, ask, line] {
+                if (line_to(host.name, ask.host) == line) give(*find(ask.host), host, ask, line);
+            });
+            return true;
+        });
+        for (auto& [name, bytes] : process.from_others.outcomes()) {
+            ++(bytes ? came_from_others_ : left_to_launcher_);
+            if (bytes) take_result(host, name, bytes);
+            if (bytes) continue;
+            send_up(host, [this, name = name](Host& lacking) {
+                send_down(lacking,
+                          [this, name](Host& to_have) { take_result(to_have, name, known_results_.at(name)); });
+            });
+        }
+        if (process.from_others.waits()) fetch_soon(host);
+    }
+    void give(Host& holder, Host& asker, const ResultsFromOthers::Ask& ask, std::uint64_t line) {
+        const auto& has = holder.process ? holder.process->brought : none_;
+        const auto found = has.find(ask.hash);
+        std::vector<std::byte> piece;
+        if (!holder.process || !holder.serving) return;
+        if (found != has.end() && ask.offset < found->second->size()) {
+            const auto from = found->second->begin() + static_cast<std::ptrdiff_t>(ask.offset);
+            piece.assign(from, from + static_cast<std::ptrdiff_t>(
+                                          std::min<std::uint64_t>(ask.size, found->second->size() - ask.offset)));
+        }
+        if (!piece.empty() && chance_.happens(world_.lies)) piece[chance_.below(piece.size())] ^= std::byte{1};
+        if (chance_.happens(world_.loss)) return;
+        at(std::max(holder.frozen_until, seconds() + delay()), [this, &asker, ask, line, piece, from = holder.name] {
+            if (line_to(asker.name, from) != line || !asker.process) return;
+            auto& others = asker.process->from_others;
+            if (piece.empty())
+                others.lacks(from, ask.hash);
+            else
+                others.take(from, {ask.hash, ask.offset, piece}, time_of(seconds()));
+            fetch_soon(asker);
+        });
+    }
+    void take_result(Host& host, const Hash& name, const Bytes& bytes) {
+        if (content_hash(*bytes) != name) faults_.push_back(host.name + ": a result arrived damaged");
+        host.process->brought[name] = bytes;
+        say_it_is_here(host, name);
+    }
+
     void call(Host& host) {
         if (host.state != State::calling) return;
         if (!host.process || host.frozen_until > seconds() || host.process->leaving)
@@ -310,6 +372,9 @@ private:
     std::shared_ptr<const Plan> in_force_;
     std::uint64_t moves_ = 0;
     std::map<Mishap::Kind, std::size_t> happened_;
+    std::map<Hash, Bytes> known_results_;  // that the launcher has
+    const std::map<Hash, Bytes> none_;
+    std::size_t came_from_others_ = 0, left_to_launcher_ = 0;
     Counters counters_;
 };
 

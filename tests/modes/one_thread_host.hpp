@@ -17,6 +17,7 @@
 #include "core/run/message/place_name.hpp"
 #include "core/run/place/dispatcher.hpp"
 #include "core/run/place/place.hpp"
+#include "transport/daemon/results_from_others.hpp"
 #include "transport/wire/packet.hpp"
 
 namespace lightnet::test {
@@ -272,6 +273,8 @@ public:
     }
 
     std::map<Hash, Bytes> brought;
+    ResultsFromOthers from_others;
+    bool fetches = false;                   // a turn of that is due
     std::uint64_t given = 0, answered = 0;  // of what came from elsewhere
     double last_work = 0;
     bool leaving = false, knows_that_it_leaves = false;

@@ -167,6 +167,7 @@ protected:
     }
     void cut(Host& from, Host& to) {
         ++from.lines[to.name];
+        if (from.process) from.process->from_others.lose(to.name);
         ask_again(from, to.name);
     }
 

@@ -104,6 +104,7 @@ struct Told {
     Picture picture;
     std::uint64_t story = 0, events = 0;
     std::map<Mishap::Kind, std::size_t> happened;
+    std::pair<std::size_t, std::size_t> fetched;  // results: from other hosts, and from the launcher after all
 };
 
 // What must hold of every run is thrown.
@@ -158,7 +159,7 @@ Told play(const OneThreadWorld& world, const Pictured& what) {
         expect(master.outstanding() == 0, [] { return std::string("credit did not come back"); });
     }
     expect(film.complete(), [] { return std::string("the film is not complete"); });
-    return {film.picture(), cluster.story(), cluster.events(), cluster.happened()};
+    return {film.picture(), cluster.story(), cluster.events(), cluster.happened(), cluster.fetched()};
 }
 
 bool same_bytes(const Picture& a, const Picture& b) {
@@ -201,6 +202,7 @@ TEST(ClusterInOneThread, HasTheSameStoryForTheSameSeed) {
 TEST(ClusterInOneThread, GivesTheBytesOfASerialRunWhateverHappens) {
     std::map<Mishap::Kind, std::size_t> happened;
     std::uint64_t events = 0;
+    std::size_t from_others = 0, from_launcher = 0;  // results
     for_every_seed(seeds, [&](std::uint64_t seed) {
         SCOPED_TRACE("play it again with LIGHTNET_SEED=" + std::to_string(seed));
         const auto& what = pictured(seed);
@@ -209,12 +211,16 @@ TEST(ClusterInOneThread, GivesTheBytesOfASerialRunWhateverHappens) {
             EXPECT_TRUE(same_bytes(told.picture, what.expected)) << "another picture";
             for (const auto& [kind, times] : told.happened) happened[kind] += times;
             events += told.events;
+            from_others += told.fetched.first, from_launcher += told.fetched.second;
         } catch (const std::exception& error) {
             ADD_FAILURE() << error.what();
         }
     });
     RecordProperty("events", std::to_string(events));
+    RecordProperty("results_from_others", std::to_string(from_others));
     if (std::getenv("LIGHTNET_SEED") || HasFailure()) return;
+    EXPECT_GT(from_others, seeds / 4) << "hosts have what others lack";
+    EXPECT_GT(from_launcher, seeds / 4) << "what nobody has at first, and where holders lie or are lost";
     for (const auto kind : {Mishap::Kind::kill, Mishap::Kind::drain, Mishap::Kind::cut_off, Mishap::Kind::cut,
                             Mishap::Kind::freeze, Mishap::Kind::move})
         EXPECT_GT(happened[kind], seeds / 20) << "of kind " << int(kind);

@@ -61,7 +61,9 @@ struct OneThreadWorld {
     double refused = 0;    // part of what is asked between hosts: the line is full just now
     double slow_news = 0;  // seconds at most, that the launcher's line to a host is busy before each plan
     double let_go_after = 5;
-    bool by_hash = false;  // results go by their hash, however small they are
+    bool by_hash = false;     // results go by their hash, however small they are
+    bool by_holders = false;  // and come from hosts that have them ...
+    double lies = 0;          // ... a part of whose pieces is not what it should be
     Tuning tuning{};
     std::vector<Mishap> mishaps{};
 };
@@ -95,6 +97,9 @@ inline OneThreadWorld world_of(std::uint64_t seed) {
     if (chance.happens(0.3)) world.refused = 0.1;
     world.let_go_after = chance.happens(0.5) ? 5 : 10;
     world.by_hash = chance.happens(0.5);
+    Chance more(child(seed, 19));
+    world.by_holders = world.by_hash && more.happens(0.7);
+    if (more.happens(0.3)) world.lies = 0.3 * more.part();
     world.tuning.bundle = static_cast<std::uint32_t>(1u << (3 + chance.below(6)));
     world.tuning.credit = static_cast<std::uint32_t>(1 + chance.below(8));
     world.tuning.credit_questions = chance.happens(0.5) ? 64 : 8192;

@@ -134,7 +134,8 @@ bool Host::Service::turn(const std::atomic<bool>& stop) {
     if (readable.gateway) forward_asks();
     if (peers && (readable.peers || peers->due(now))) peers->tick(now);
     if (readable.news || (run && !run->serving())) advance();
-    if (readable.news) tell_found(), tell_failures();
+    if (readable.news) tell_failures();
+    if (run) run->results().go_on(now);
     if (rights.owner_is_gone(now, options.log)) drop_owner();
     if (run && lease.is_over(now)) drop_run("its launcher is silent");
     if (!leaving) door.keep_in_touch(now);
@@ -174,7 +175,8 @@ void Host::Service::arrived(PlaceTraffic::Arrival arrival) {
         ++broken_packets;
         return;
     }
-    if (header && frames.size() == 4 && header->type < Type::hello) return from_another(*header, std::move(frames));
+    if (header && frames.size() == 4 && (header->type < Type::hello || header->type == Type::fetch))
+        return from_another(*header, std::move(frames));
     const auto body = bytes_of(frames.back());
     const bool sound = header && plain && packet::read_header(header_bytes, body);
     const auto piece = sound && header->type == Type::blob ? packet::unpack_piece(body) : std::nullopt;
@@ -208,10 +210,12 @@ void Host::Service::damaged(const std::string& route) {
     door.send(resend);
 }
 
-// [route][address][header][body], through the launcher: an ask, or the reply to one of ours.
+// [route][address][header][body]: an ask through the launcher, or the reply to one of ours; or another host asks for a
+// result.
 void Host::Service::from_another(const packet::Header& header, Frames frames) {
     if (packet::is_ask(header.type)) return traffic.ask(header, std::move(frames));
     if (!run || header.run != run->id()) return;
+    if (header.type == Type::fetch) return run->results().asked(std::move(frames));
     const auto address = unseal(bytes_of(frames[1]));
     frames.erase(frames.begin(), frames.begin() + 2);
     if (!address || !gateway->forward(address->place, frames)) gateway->request_resend("");

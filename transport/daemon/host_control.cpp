@@ -1,7 +1,9 @@
 // Control of a host by launchers: what they say, and what it does.
 #include <algorithm>
+#include <sstream>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/base/build_info.hpp"
 #include "core/base/error.hpp"
@@ -26,6 +28,16 @@ using packet::Type;
 // Each takes a descriptor for the socket and one for the connection. Those that there are already count as well.
 bool may_have_own_lines(std::size_t lines, std::size_t most) {
     return lines <= most && (lines == 0 || descriptors_left() > for_other_work);
+}
+
+// Names, as many as anybody needs.
+std::vector<std::string> lines_of(const std::string& text) {
+    constexpr std::size_t most = 16;
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; lines.size() < most && std::getline(in, line);)
+        if (!line.empty()) lines.push_back(line);
+    return lines;
 }
 
 }  // namespace
@@ -55,8 +67,8 @@ void Host::Service::control(const PacketSender& sender, const packet::Header& he
             return tell_state(sender);
         case Type::expect:
             if (const auto hash = hash_from_hex(fields.text("hash")); ours && hash)
-                run->expect(*hash, fields.number("size"));
-            return tell_found();
+                run->expect(*hash, fields.number("size"), lines_of(fields.text("holders")));
+            return;
         case Type::end:
             return end(route, header.run);
         default:
@@ -177,19 +189,31 @@ void Host::Service::start(const ArrivingJob& job, ArrivingJob::Content read) {
     rights.serve(job.sender.key);
     rights.use_members(job.members);
     gateway.emplace(*context, job.id);
-    peers.emplace(
-        *options.transport, job.you,
-        PeerConnections::Handlers{[this](const std::string& place, Frames& frames) { gateway->forward(place, frames); },
-                                  [this](const std::string& host) { gateway->request_resend(host); },
-                                  [this](Frames& frames) { forward_to_launcher(frames); },
-                                  [this](const std::string& host) { return keys_to(host); },
-                                  [=](LineBook::Entries quick, std::size_t hosts) {
-                                      if (!may_have_own_lines(hosts * places, most)) quick.clear();
-                                      for (auto& [host, entry] : quick) entry.room /= places;
-                                      lines->use(std::move(quick));
-                                  }},
-        options.line_life);
+    peers.emplace(*options.transport, job.you,
+                  PeerConnections::Handlers{[this](const std::string& host, const std::string& place, Frames& frames) {
+                                                if (place.empty()) return run->results().arrived(host, frames);
+                                                gateway->forward(place, frames);
+                                            },
+                                            [this](const std::string& host) {
+                                                gateway->request_resend(host);
+                                                run->results().lose(host);
+                                            },
+                                            [this](Frames& frames) { forward_to_launcher(frames); },
+                                            [this](const std::string& host) { return keys_to(host); },
+                                            [=](LineBook::Entries quick, std::size_t hosts) {
+                                                if (!may_have_own_lines(hosts * places, most)) quick.clear();
+                                                for (auto& [host, entry] : quick) entry.room /= places;
+                                                lines->use(std::move(quick));
+                                            }},
+                  options.line_life);
     peers->hear(job.numbers);
+    run->results().connect(
+        {job.id, [this](Type type, const Fields& said) { door.send(launcher, type, run->id(), said); },
+         [this](auto hosts) { return peers->nearest(std::move(hosts)); },
+         [this](Frames frames) { peers->ask(std::move(frames)); }, [this](Frames& frames) { door.send(frames); },
+         [this](const std::string& said) {
+             options.log({LogLevel::warning, said});
+         }});
     who = job.who;
     forget_peak_memory();
     ++runs_begun;
@@ -235,12 +259,6 @@ void Host::Service::tell_needs() {
     door.send(launcher, Type::need, run->id(), Fields{}.set("hashes", missing));
 }
 
-void Host::Service::tell_found() {
-    if (!run) return;
-    for (const auto& [hash, here] : run->found())
-        door.send(launcher, here ? Type::here : Type::lacks, run->id(), Fields{}.set("hash", to_hex(hash)));
-}
-
 // Who shares this host with others is not told of their work.
 void Host::Service::tell_state(const PacketSender& sender) {
     Fields fields;
@@ -267,7 +285,6 @@ void Host::Service::take_blob(const std::string& route, std::uint64_t id, const 
     if (!run || run->id() != id) return;
     if (run->take_blob(piece))
         door.send(route, Type::blob_taken, id, Fields{}.set("hash", to_hex(piece.hash)).set("offset", piece.offset));
-    tell_found();
 }
 
 // Its threads end when they have done what they are at, which may take a while: somebody else waits for them.

@@ -92,7 +92,6 @@ struct Host::Service {
     std::string busy_with() const;
     void tell_needs();
     void tell_state(const PacketSender& sender);
-    void tell_found();
     void take_blob(const std::string& route, std::uint64_t id, const packet::Piece& piece);
     void stop_run(const std::string& route);
     void look_at_ending();

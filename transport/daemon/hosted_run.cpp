@@ -77,54 +77,14 @@ void HostedRun::claim_result(const Hash& hash, std::uint64_t size) {
     making_room_.push_back(background_.start([this, room = room_] { cache_.make_room(room); }));
 }
 
-void HostedRun::expect(const Hash& hash, std::uint64_t size) {
-    if (results_->in_memory(hash)) return found_.push_back({hash, true});
-    claim_result(hash, size);
-    expected_[hash].size = size;
-    if (!looked_for_.contains(hash)) looked_for_[hash] = background_.start([this, hash] { return cache_.read(hash); });
-}
-
-std::vector<std::pair<Hash, bool>> HostedRun::found() {
-    for (auto look = looked_for_.begin(); look != looked_for_.end();) {
-        if (look->second.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-            ++look;
-            continue;
-        }
-        auto bytes = look->second.get();
-        found_.push_back({look->first, bytes != nullptr});
-        if (bytes) {
-            results_->take(look->first, std::move(bytes));
-            expected_.erase(look->first);
-        }
-        look = looked_for_.erase(look);
-    }
-    return std::exchange(found_, {});
-}
-
-void HostedRun::take_result(const packet::Piece& piece, IncomingResult& result) {
-    constexpr std::uint64_t believed = std::uint64_t{64} << 20;  // room is taken for so much before it is there
-    if (piece.offset == 0) {                                     // from the beginning, perhaps again
-        result.bytes = std::make_shared<std::vector<std::byte>>();
-        result.bytes->reserve(std::min(result.size, believed));
-        result.hasher.emplace();
-    }
-    if (!result.bytes || piece.offset != result.bytes->size()) return;
-    if (piece.bytes.size() > result.size - piece.offset) throw Error("a result is longer than it was said to be");
-    result.bytes->insert(result.bytes->end(), piece.bytes.begin(), piece.bytes.end());
-    result.hasher->add(piece.bytes);
-    if (result.bytes->size() < result.size) return;
-    if (result.hasher->finish() != piece.hash) throw Error("a result of preparing arrived damaged");
-    results_->keep(piece.hash, std::move(result.bytes));
-    expected_.erase(piece.hash);
-    found_.push_back({piece.hash, true});
+void HostedRun::expect(const Hash& hash, std::uint64_t size, std::vector<std::string> holders) {
+    if (!run_results_.in_memory(hash)) claim_result(hash, size);
+    run_results_.expect(hash, size, std::move(holders));
 }
 
 bool HostedRun::take_blob(const packet::Piece& piece) {
     const auto& [hash, offset, bytes] = piece;
-    if (const auto expected = expected_.find(hash); expected != expected_.end()) {
-        take_result(piece, expected->second);
-        return true;
-    }
+    if (run_results_.take(piece)) return true;
     if (state_ == State::looking) return false;
     if (!missing_.contains(hash)) return true;
     auto found = incoming_.find(hash);

@@ -15,6 +15,7 @@
 #include "core/run/assembly/job.hpp"
 #include "core/run/assembly/last_scene.hpp"
 #include "transport/daemon/background_work.hpp"
+#include "transport/daemon/run_results.hpp"
 #include "transport/places/place_threads.hpp"
 #include "transport/store/blob_cache.hpp"
 #include "transport/store/cache_claim.hpp"
@@ -51,12 +52,11 @@ public:
     void expect_files_anew() { incoming_.clear(); }
     /// Takes a piece of a file. True: it is here now. Throws Error when a whole file is not what it was named.
     bool take_blob(const packet::Piece& piece);
-    /// Bytes that a step will name are to come, unless the cache has them: see found(). Throws Error when they are too
-    /// many.
-    void expect(const Hash& hash, std::uint64_t size);
-    /// What has become of bytes that were expected, since the last call: here, or lacking.
-    std::vector<std::pair<Hash, bool>> found();
-    /// To be polled: readable when advance() or found() may have news.
+    /// Bytes that a step will name are to come, unless the cache has them; hosts that have them. Throws Error when they
+    /// are too many.
+    void expect(const Hash& hash, std::uint64_t size, std::vector<std::string> holders);
+    RunResults& results() { return run_results_; }
+    /// To be polled: readable when advance() or results() may have news.
     int news() const { return background_.handle(); }
     void clear_news() {
         background_.clear();
@@ -86,18 +86,10 @@ public:
     std::string nodes() const;
 
 private:
-    // One on its way in.
-    struct IncomingResult {
-        std::uint64_t size = 0;
-        std::shared_ptr<std::vector<std::byte>> bytes;  // null before it has begun
-        std::optional<Hasher> hasher;
-    };
-
     void take_plan(const Plan& plan);
     void begin_to_build();
     void claim_files();
     void claim_result(const Hash& hash, std::uint64_t size);
-    void take_result(const packet::Piece& piece, IncomingResult& result);
 
     std::shared_ptr<const SocketContext> context_;
     ShortWays ways_;  // of its places
@@ -117,9 +109,7 @@ private:
     std::map<Hash, BlobCache::Incoming> incoming_;
     std::future<std::shared_ptr<const Network>> building_;
     std::shared_ptr<Results> results_ = std::make_shared<Results>(cache_);  // of preparing; places read them
-    std::map<Hash, std::future<Bytes>> looked_for_;
-    std::map<Hash, IncomingResult> expected_;
-    std::vector<std::pair<Hash, bool>> found_;
+    RunResults run_results_{results_, background_};
     std::unique_ptr<ZmqPlaceTransport> transport_;
     std::unique_ptr<PlaceThreads> places_;
     std::atomic<bool> unwanted_{false};  // what is built

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "core/base/ip_address.hpp"
@@ -59,17 +59,26 @@ void PeerConnections::hear(const std::string& lines) {
     }
 }
 
-PacedLine::Send PeerConnections::socket_of(Peer& to) {
-    return [&to](Frames& frames) { return to.line->send(frames); };
-}
-
 void PeerConnections::ask(Frames frames) {
     auto& to = peer(text_of(frames[1]));
     if (to.relayed) return handlers_.launcher(frames);
     Frames packet;
     packet.emplace_back(seal({me_, text_of(frames[0])}));
     for (const auto i : {2u, 3u}) packet.push_back(std::move(frames[i]));
-    if (!to.paced.send(packet, std::chrono::steady_clock::now(), socket_of(to))) to.paced.put(std::move(packet));
+    if (!to.paced.send(packet, std::chrono::steady_clock::now(), to.socket())) to.paced.put(std::move(packet));
+}
+
+std::vector<std::string> PeerConnections::nearest(std::vector<std::string> hosts) {
+    std::erase_if(hosts, [&](const auto& host) { return peer(host).relayed; });
+    const auto machine_of = [](const std::string& host) {
+        const auto parts = tcp_endpoint(host);
+        return parts ? parts->host : host;
+    };
+    std::ranges::stable_sort(hosts, std::ranges::greater{}, [&](const auto& host) {
+        const auto& to = peers_.at(host);
+        return std::tuple(machine_of(host) == machine_of(me_), !to.slow, to.paced.window());
+    });
+    return hosts;
 }
 
 void PeerConnections::tick(Time now) {
@@ -81,10 +90,10 @@ void PeerConnections::tick(Time now) {
         while (auto frames = to.line->receive()) {
             to.lease.heard(now);
             if (std::exchange(to.calling, false)) to.slow = now - to.called > quick_answer;
-            if (auto message = to.paced.take(std::move(*frames), now, socket_of(to))) take(host, to, *message);
+            if (auto message = to.paced.take(std::move(*frames), now, to.socket())) take(host, to, *message);
             to.relayed = false;
         }
-        if (!to.relayed) to.paced.go_on(now, socket_of(to));
+        if (!to.relayed) to.paced.go_on(now, to.socket());
         if (look && now - to.opened > line_life_ && handlers_.keys(host)) open_anew(host, to);
         if (look && to.line && !to.relayed) look_whether_reachable(host, to, now);
         if (look && to.line && !to.relayed) look_whether_silent(host, to, now);
@@ -105,7 +114,7 @@ void PeerConnections::take(const std::string& host, Peer& to, Frames& frames) {
     const auto address = frames.size() == 3 ? unseal(bytes_of(frames[0])) : std::nullopt;
     if (!address || frames[1].size() == 0) return handlers_.request_resend(host);
     frames.erase(frames.begin());
-    handlers_.reply(address->place, frames);
+    handlers_.reply(host, address->place, frames);
 }
 
 // The greeting on the new line has all asked again that is under way.

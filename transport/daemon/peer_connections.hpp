@@ -24,7 +24,8 @@ class PeerConnections {
 public:
     using Time = std::chrono::steady_clock::time_point;
     struct Handlers {
-        std::function<void(const std::string& place, Frames& frames)> reply;   // [header][body], for a place of ours
+        // [header][body], from a host, for a place of ours; or what was asked in nobody's name.
+        std::function<void(const std::string& host, const std::string& place, Frames& frames)> reply;
         std::function<void(const std::string& host)> request_resend;           // what was under way to it may be lost
         std::function<void(Frames& frames)> launcher;                          // [place][host][header][body]
         std::function<std::optional<LineKeys>(const std::string& host)> keys;  // by which it is called; none: without
@@ -39,6 +40,9 @@ public:
 
     /// [place][host][header][body]
     void ask(Frames frames);
+    /// Of these hosts those that can be asked without the launcher: those on this machine first, then those with the
+    /// quickest lines, as far as they were seen to be.
+    std::vector<std::string> nearest(std::vector<std::string> hosts);
     /// Takes in what has come, and sends what has waited for its connection.
     void tick(Time now);
     /// See PeerAddresses.
@@ -63,11 +67,13 @@ private:
         Time called{};                       // asked whether it is there
         bool calling = false, slow = false;  // it has not said so yet; it takes long to
         std::uint64_t number = 0;            // of this line: each has another
+        PacedLine::Send socket() {
+            return [this](Frames& frames) { return line->send(frames); };
+        }
     };
     Peer& peer(const std::string& host);
     void open(const std::string& host, Peer& to);
     void open_anew(const std::string& host, Peer& to);
-    static PacedLine::Send socket_of(Peer& to);
     void look_whether_silent(const std::string& host, Peer& to, Time now);
     void give_up(const std::string& host, Peer& to);
     void take(const std::string& host, Peer& to, Frames& frames);

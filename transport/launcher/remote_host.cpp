@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/build_info.hpp"
+#include "core/base/joined.hpp"
 #include "core/base/this_machine.hpp"
 
 namespace lightnet {
@@ -158,6 +159,7 @@ bool RemoteHost::take_out(const std::string& why) {
     state_ = State::refused;
     reason_ = why;
     files_.clear();
+    offer_.holders->lose(name_);
     return true;
 }
 
@@ -173,6 +175,7 @@ void RemoteHost::lose(Time now, const std::string& why) {
     state_ = State::calling;
     reason_ = why;
     files_.restart();
+    offer_.holders->lose(name_);
     connect_anew({}, now);
     ports_.call(now);
 }
@@ -279,7 +282,10 @@ void RemoteHost::control(Type type, const Fields& fields, Time now) {
             if (const auto hash = hash_from_hex(fields.text("hash"))) files_.lacks(*hash);
             return;
         case Type::here:
-            if (const auto hash = hash_from_hex(fields.text("hash"))) files_.has(*hash);
+            if (const auto hash = hash_from_hex(fields.text("hash"))) {
+                files_.has(*hash);
+                if (takes_part()) offer_.holders->has(name_, *hash);
+            }
             return;
         case Type::ready:
             if (state_ == State::building || state_ == State::sending) state_ = State::ready;
@@ -371,8 +377,11 @@ void RemoteHost::tell_members() {
 
 bool RemoteHost::bring(const Hash& name, const Bytes& bytes) {
     const bool is_new = files_.bring(name, bytes);
-    if (is_new && !send(Type::expect, Fields{}.set("hash", to_hex(name)).set("size", bytes->size())))
-        files_.forget(name);
+    if (is_new) {
+        auto fields = Fields{}.set("hash", to_hex(name)).set("size", bytes->size());
+        fields.set("holders", joined(offer_.holders->of(name, name_), "\n"));
+        if (!send(Type::expect, fields)) files_.forget(name);
+    }
     return !is_new && files_.is_there(name);
 }
 

@@ -17,6 +17,7 @@
 #include "transport/launcher/host_link.hpp"
 #include "transport/launcher/host_news.hpp"
 #include "transport/launcher/message_counts.hpp"
+#include "transport/launcher/result_holders.hpp"
 #include "transport/launcher/run_ports.hpp"
 #include "transport/lines/paced_line.hpp"
 #include "transport/wire/lease.hpp"
@@ -35,6 +36,7 @@ struct RunOffer {
     std::chrono::milliseconds line_life{};  // after which a line with keys gets new ones
     std::string members{};                  // keys of all its hosts, see AllowList; changes as they come
     std::string numbers{};                  // addresses of those that have names; likewise
+    std::shared_ptr<ResultHolders> holders = std::make_shared<ResultHolders>();
 };
 
 /// Greets a host, sends it the job and the files that it lacks, waits until its places are ready, and keeps its lease:

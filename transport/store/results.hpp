@@ -29,6 +29,8 @@ public:
     /// One that it is to have, as room was made for it: written by a thread of its own, and held until it is on disk.
     void keep(const Hash& name, Bytes bytes);
     bool in_memory(const Hash& name) const;
+    /// What the cache has, whoever put it there; null: it has none.
+    Bytes read(const Hash& name) const { return cache_.read(name); }
     /// Null when the cache has lost it.
     Bytes find(const Hash& name);
 

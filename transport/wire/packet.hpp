@@ -14,7 +14,7 @@
 // nobody else can plan, end, feed or question it. Strangers are told 0.
 //
 // Every size is checked before anything is allocated, and a packet that breaks a rule is dropped and counted.
-// Version 3. A peer of another version is refused at HELLO, with a text that names both.
+// Version 4. A peer of another version is refused at HELLO, with a text that names both.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@
 namespace lightnet::packet {
 
 inline constexpr std::uint32_t magic = 0x54454e4c;  // "LNET"
-inline constexpr std::uint16_t version = 3;
+inline constexpr std::uint16_t version = 4;
 inline constexpr std::size_t header_size = 68;
 inline constexpr std::size_t most_bytes = 64 << 20;  // in one body
 
@@ -52,7 +52,7 @@ enum class Type : std::uint8_t {
     refuse,      //                             text: what differs, or who is being served
     begin,       // graph, plan, seed, rules, manifest of the scene's files, who, members, numbers
     need,        //                             hashes that are not in the host's cache
-    blob,        // hash, offset, bytes
+    blob,        // hash, offset, bytes. From host to host, too: what was asked by fetch
     blob_taken,  //                             hash, offset
     ready,       //                             all places are assembled
     broken,      //                             text: the run can't be served here
@@ -65,8 +65,8 @@ enum class Type : std::uint8_t {
     leaving,  // it is to leave the run           it was told to: it answers what it has, then ends the run
     join,     //                             name, process, endpoint, proof: "I am here", from a host that dialled out
     joined,   // to such a host: challenge, see pass.hpp; turned_down
-    expect,   // hash, size: bytes that a step will name
-    lacks,    //                             hash: please send them
+    expect,   // hash, size: bytes that a step will name; holders: hosts that have them, a line each
+    lacks,    //                             hash: please send them. From host to host: it can't give them
     here,     //                             hash: it has them
     fault,    //                             host, text: another host that failed at what this one asked of it
     // anyone → a host or a launcher
@@ -74,6 +74,7 @@ enum class Type : std::uint8_t {
     state,    // a host in words; `left` more follow
     members,  // launcher → host, for this run only: the keys of its hosts, see AllowList; numbers: where those are
               // that have names, a line each, like "onyx1 10.0.0.11"
+    fetch,    // host → host, behind an address like an ask: hash, offset, size: a piece of a result, please
     // either end of a line, about the line; all in the header
     part,     // of a message: bundle: where it begins; count: bytes of the whole. The body is nothing but its bytes
     mark,     // bundle: a number, to be said back by whoever gets so far

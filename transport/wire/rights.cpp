@@ -28,6 +28,7 @@ bool serves_a_run(Type type) {
         case Type::end:
         case Type::joined:
         case Type::expect:
+        case Type::fetch:
         case Type::state:
             return false;
         default:
@@ -48,7 +49,7 @@ bool may(Party party, Type type) {
         case Party::owner:
             return leads_a_run(type);
         case Party::member:
-            return type == Type::ask_light;
+            return type == Type::ask_light || type == Type::fetch;
         case Party::host:
             return serves_a_run(type);
         case Party::user:
