@@ -22,6 +22,20 @@
 
 namespace lightnet {
 
+/// Each vertex of a path has these dimensions of its own, used or not.
+struct PathDimensions {
+    enum Dimension : std::uint32_t {
+        choice_of_lamp,
+        place_on_lamp,
+        choice_of_second,
+        second_direction,
+        choice_of_lobe,
+        direction,
+        survival
+    };
+    static constexpr std::uint32_t dimensions = 7;
+};
+
 /// Some paths between two of their vertices, and scratch space for them. One thread's.
 struct PathBatch {
     /// A path between two of its vertices.

@@ -1,7 +1,6 @@
 #include "core/estimate/path_walk.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "core/base/math/columns.hpp"
 #include "core/estimate/path_batch.hpp"
@@ -10,13 +9,15 @@
 #include "core/estimate/through_media.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/lamps/lights.hpp"
+#include "core/scene/path_kinds.hpp"
 
 namespace lightnet {
 namespace {
 
 /// One call. `guided`: by a guide, or for one; apart, as what it takes costs a tenth of the time where there is none.
-template <bool guided>
-class Walker {
+/// `tells`: sums are kept apart by what is known of paths (path_kinds.hpp).
+template <bool guided, bool tells = false>
+class Walker : PathDimensions {
 public:
     /// `first`: null where paths begin by a guide, or for one.
     Walker(const Scene& scene, const PathPlan& plan, bool panes, Key key, const LightGuide* guide,
@@ -24,7 +25,7 @@ public:
         : scene_(scene),
           guide_(guide),
           first_rays_(plan.all ? nullptr : first),
-          groups_(static_cast<std::uint32_t>(scene.lights().groups())),
+          groups_(static_cast<std::uint32_t>(scene.lights().groups()) * (tells ? told::states : 1)),
           key_(key),
           samples_(plan.samples),
           max_depth_(plan.max_depth),
@@ -68,23 +69,12 @@ public:
 
 private:
     using Step = PathVertices::Step;
+    using Sums = PathSums<tells>;
     static constexpr std::size_t paths_at_once = 256;
     static constexpr std::size_t vertices_at_once = lanes;
     using Batch = PathBatch;
     using Path = PathBatch::Path;
     using Numbers = PathBatch::Numbers;
-
-    /// Each vertex of a path has these dimensions of its own, used or not.
-    enum Dimension : std::uint32_t {
-        choice_of_lamp,
-        place_on_lamp,
-        choice_of_second,
-        second_direction,
-        choice_of_lobe,
-        direction,
-        survival
-    };
-    static constexpr std::uint32_t dimensions = 7;
 
     void start(Batch& batch, std::span<const Query> questions, std::size_t first, std::size_t last) const {
         batch.sums.assign((last - first) * groups_, Rgb{});
@@ -100,8 +90,8 @@ private:
                 batch.asked.push_back(q);
                 batch.samples.add(key, index);
                 if (media_) batch.flights.add(child(key, flights::key), index);
-                batch.paths.push_back(
-                    {static_cast<std::uint32_t>(path - first) * groups_, 1, {1, 1, 1}, nullptr, {}, {}});
+                const std::uint32_t sum = Sums::beginning(static_cast<std::uint32_t>(path - first), groups_);
+                batch.paths.push_back({sum, 1, {1, 1, 1}, nullptr, {}, {}});
             }
         }
         batch.rays.resize(batch.paths.size());
@@ -285,7 +275,7 @@ private:
             batch.vertices.sample_lamps(
                 {numbers.choices, numbers.places}, heuristic, batch.shadow_rays,
                 [&](std::uint32_t i) { return at_its_end(paths[i], depth) ? Rgb{} : paths[i].weight; },
-                [&](std::uint32_t i) { return paths[i].sum; });
+                [&](std::uint32_t i) { return Sums::looking(paths[i].sum, groups_); });
         }
         if (two_looks(depth))
             batch.vertices.each([&](std::uint32_t i, const Gathering& at) { look_at_sky(batch, i, at, depth); });
@@ -302,7 +292,8 @@ private:
         scene_.lights().look_at_sky({&ray, 1}, {&seen, 1});
         const Rgb sky = found->weight * sky_by_bsdf(seen, *found, heuristic);
         if (is_black(sky)) return;
-        batch.shadow_rays.add(ray, path.weight * (0.5f * sky), path.sum + scene_.lights().environment_group());
+        batch.shadow_rays.add(ray, path.weight * (0.5f * sky),
+                              Sums::looking(path.sum, groups_) + scene_.lights().environment_group());
     }
 
     /// Is the environment seen from the surface number `depth` looked at by two directions?
@@ -354,11 +345,12 @@ private:
         if constexpr (guided) batch.alone[to] = batch.alone[i];
         batch.rays[to] = on.ray;
         const BsdfSample& by = on.sample;
+        const std::uint32_t sum = Sums::gone_on(path.sum, groups_, by.lobe);
         if (on.passes && depth > 0)
             batch.paths[to] = path.after_pane(eta_scale, weight, on.inside, hoped, odds);
         else
-            batch.paths[to] = {path.sum, eta_scale, weight,     on.inside, on.from, by.incoming,
-                               by.pdf,   by.lobe,   path.panes, hoped,     odds};
+            batch.paths[to] = {sum,    eta_scale, weight,     on.inside, on.from, by.incoming,
+                               by.pdf, by.lobe,   path.panes, hoped,     odds};
     }
 
     static constexpr Heuristic heuristic = Heuristic::automatic;
@@ -366,7 +358,7 @@ private:
     const Scene& scene_;
     const LightGuide* guide_;
     SharedFirstRays* first_rays_;  // null: found anew
-    std::uint32_t groups_;         // of lamps
+    std::uint32_t groups_;         // of lamps; where kinds are told, as many for each
     Key key_;
     std::uint32_t samples_;
     std::uint32_t max_depth_;
@@ -377,14 +369,23 @@ private:
     bool panes_;        // are there any?
 };
 
+template <bool guided, class... Way>
+void follow(const Scene& scene, std::span<const Query> questions, std::span<Rgb> answers, const Way&... way) {
+    PathKindWatch* const watch = PathKindWatch::here();
+    if (!watch) return Walker<guided>(scene, way...).walk(questions, answers, nullptr);
+    std::vector<Rgb> sums(answers.size() * told::states);
+    Walker<guided, true>(scene, way...).walk(questions, sums, nullptr);
+    watch->tell(sums, scene.lights().groups(), answers);
+}
+
 }  // namespace
 
 void PathWalk::light(std::span<const Query> questions, Key key, SharedFirstRays& first, std::span<Rgb> answers) const {
-    Walker<false>(scene_, plan_, panes_, key, nullptr, &first).walk(questions, answers, nullptr);
+    follow<false>(scene_, questions, answers, plan_, panes_, key, nullptr, &first);
 }
 
 void PathWalk::light(std::span<const Query> questions, Key key, const LightGuide& guide, std::span<Rgb> answers) const {
-    Walker<true>(scene_, plan_, panes_, key, &guide, nullptr).walk(questions, answers, nullptr);
+    follow<true>(scene_, questions, answers, plan_, panes_, key, &guide, nullptr);
 }
 
 void PathWalk::learn(std::span<const Query> questions, Key key, const LightGuide* guide, Learnt& learnt) const {
