@@ -3,11 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "core/film/fireflies.hpp"
+#include "core/network/graph/layout.hpp"
+#include "core/network/graph/single_lights.hpp"
+#include "tools/explain/error_by_paths.hpp"
+#include "tools/session/rendering.hpp"
 
 namespace lightnet {
 namespace {
+
+constexpr double most_of_it = 0.6;  // of the error: who makes so much of it is named
+constexpr double nearly_all = 0.8;  // so much of it must get better, as the rest may get worse: see noise-by-paths
+constexpr const char* photon_graph = "graphs/progressive.lua";
+constexpr double least_seen = 0.0025;  // relative square: below, nobody sees it
 
 // What is seen of lamps is as bright as they are, and no noise.
 std::vector<const PictureLayer*> layers_of_surfaces(const Picture& picture) {
@@ -17,20 +27,81 @@ std::vector<const PictureLayer*> layers_of_surfaces(const Picture& picture) {
     return layers;
 }
 
+/// Which light paths make most of the error, and what covers them better.
+struct Culprit {
+    std::string words;         // "paths LS+D make 97 % of it"; "": nobody is known to
+    std::string better;        // graph; "": none is known
+    bool is_doubtful = false;  // there is one that may be better
+};
+
+bool is_any(const RunReport& report, std::string_view kind) {
+    return std::any_of(report.nodes.begin(), report.nodes.end(),
+                       [&](const NodeReport& node) { return node.kind.find(kind) != std::string::npos; });
+}
+
+Culprit culprit_of(const RunReport& report, std::string_view what) {
+    if (!report.noise) return {};
+    const auto part = [&](PathKind kind) {
+        for (const auto& [word, share] : report.noise->paths)
+            if (word == word_of(kind)) return share;
+        return 0.0;
+    };
+    // DECISIONS: noise-by-paths
+    // By way of glass or mirrors light is found by chance, and what it lights, seen through them, likewise.
+    const double caustic = part(PathKind::caustic), mirrored = part(PathKind::mirrored);
+    if (caustic + mirrored >= most_of_it) {
+        const auto words = caustic < 0.1 * mirrored ? std::string(word_of(PathKind::mirrored))
+                           : mirrored < 0.1 * caustic
+                               ? std::string(word_of(PathKind::caustic))
+                               : fmt::format("{} and {}", word_of(PathKind::caustic), word_of(PathKind::mirrored));
+        return {fmt::format("paths {} make {:.0f} % of {}", words, 100 * std::min(1.0, caustic + mirrored), what),
+                is_any(report, "Photon") || caustic + mirrored < nearly_all ? "" : photon_graph,
+                !is_any(report, "Photon")};
+    }
+    for (const auto& [word, share] : report.noise->paths)
+        if (share >= most_of_it)
+            return {fmt::format("paths {} make {:.0f} % of {}", word, 100 * std::min(1.0, share), what), ""};
+    return {};
+}
+
 }  // namespace
 
-std::string firefly_words(const Picture& picture, const std::vector<NodeReport>& nodes, const std::string& exr) {
+void note_noise(RunRecorder& book, const Assignment& what) {
+    const Network& network = *what.network;
+    const bool prepares =
+        !preparing_nodes(network.graph, network.registry).empty() || !shards_in(network.graph).empty();
+    if (prepares || leaves_out(network.graph) || what.look_alone || what.request.shown || what.request.looks <= 0)
+        return;
+    if (!book.steps().finished() || !book.steps().picture().complete()) return;
+    const PixelRecount::Source source{what.network, what.format, what.made_from, book.files().scale()};
+    const auto found = error_by_paths(book.files().now(), source, nullptr, what.request.looks, [] {});
+    if (!found) return;
+    NoiseReport noise{found->error, found->pixels, {}};
+    for (std::size_t kind = 0; kind < path_kinds; ++kind)
+        noise.paths.emplace_back(word_of(static_cast<PathKind>(kind)), found->shares[kind]);
+    book.account().report().noise = std::move(noise);
+}
+
+std::string firefly_words(const Picture& picture, const RunReport& report, const std::string& exr) {
     const auto found = fireflies_in(picture, layers_of_surfaces(picture));
-    if (!found || found->brightest.empty()) return {};
-    const auto any = [&](auto&& is) { return std::any_of(nodes.begin(), nodes.end(), is); };
-    const bool photons = any([](const NodeReport& node) { return node.kind.find("Photon") != std::string::npos; });
-    const bool paths = any([](const NodeReport& node) { return node.kind == "PathTracing"; });
+    const Culprit of_noise = culprit_of(report, "the error");
+    if (!found || found->brightest.empty()) {
+        if (of_noise.better.empty() || report.noise->error < least_seen) return {};
+        return fmt::format("noise: {} (relative square {:.2g}): {} covers these better", of_noise.words,
+                           report.noise->error, of_noise.better);
+    }
     const auto [x, y] = found->brightest.front();
-    std::string words =
-        fmt::format("fireflies: {} {} 99 % of the noise; lightnet explain {} {},{} tells by which light paths",
-                    found->pixels, found->pixels == 1 ? "pixel holds" : "pixels hold", exr, x, y);
-    if (paths && !photons)
-        words += "; where they come by way of glass or mirrors (LS+D), a photon map finds them: graphs/progressive.lua";
+    std::string words = fmt::format("fireflies: {} {} {:.0f} % of the noise", found->pixels,
+                                    found->pixels == 1 ? "pixel holds" : "pixels hold", 100 * found->share);
+    if (!of_noise.words.empty())
+        words += "; " + culprit_of(report, "it").words +
+                 (!of_noise.better.empty() ? ": " + of_noise.better + " covers these better"
+                  : of_noise.is_doubtful   ? ""
+                                           : ": no graph is known that covers these better");
+    words += fmt::format("; lightnet explain {} {},{} tells by which light paths", exr, x, y);
+    if (of_noise.words.empty() && is_any(report, "PathTracing") && !is_any(report, "Photon"))
+        words += "; where they come by way of glass or mirrors (LS+D), a photon map finds them: " +
+                 std::string(photon_graph);
     return words;
 }
 

@@ -1,16 +1,23 @@
-// Words about the fireflies of a picture: how many, and what to do about them.
+// Words about the noise of a picture: fireflies, which light paths make them, and what to do about it.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "core/film/picture.hpp"
 #include "tools/support/run_report.hpp"
 
 namespace lightnet {
 
-/// "": there are none. `exr`: file of the picture; `nodes`: of the graph that made it, whose photon maps, or lack of
-/// them, tell which graph would cover better what paths meet by chance.
-std::string firefly_words(const Picture& picture, const std::vector<NodeReport>& nodes, const std::string& exr);
+class RunRecorder;
+struct Assignment;
+
+/// Computes some pixels of a finished picture again, and writes into the report what makes its error; nothing where
+/// nodes prepare, or there is nothing to tell (see error_by_paths()). Whoever waits for each picture is not kept
+/// waiting.
+void note_noise(RunRecorder& book, const Assignment& what);
+
+/// "": there are no fireflies, and no graph is known that covers better what makes the error. `exr`: file of the
+/// picture; `report`: what is known of the noise, and the nodes of the graph, which tell what covers its paths already.
+std::string firefly_words(const Picture& picture, const RunReport& report, const std::string& exr);
 
 }  // namespace lightnet

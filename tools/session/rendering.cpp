@@ -19,6 +19,7 @@
 #include "core/run/master/master_renderer.hpp"
 #include "core/run/schedule/spot_checks.hpp"
 #include "core/run/serial/serial.hpp"
+#include "tools/session/firefly_words.hpp"
 #include "tools/session/slices.hpp"
 #include "transport/launcher/threaded_run.hpp"
 #include "transport/store/cache_folder.hpp"
@@ -86,19 +87,16 @@ Rendering::Rendering(Assignment what, RunRecorder& book, const Signals& signals)
 void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
     if (what_.request.tuning.verify > 0 && what_.request.mode != Mode::network)
         book_.account().alert("--verify asks other hosts, and this run has none");
-    switch (what_.request.mode) {
-        case Mode::serial:
-            return serially(std::move(scene));
-        case Mode::threads:
-            return in_threads(std::move(scene));
-        case Mode::network:
-            return on_hosts(std::move(scene), files);
-    }
+    const auto mode = what_.request.mode;
+    if (mode == Mode::serial) serially(std::move(scene));
+    if (mode == Mode::threads) in_threads(std::move(scene));
+    if (mode == Mode::network) on_hosts(std::move(scene), files);
+    if (what_.network && !ended()) note_noise(book_, what_);
 }
 
 std::shared_ptr<const Network> Rendering::network_of(LoadedScene scene) {
     const LookingAt looking(what_.request.shown ? &signals_.superseded : nullptr);
-    auto network = build_network(what_.job, what_.registry, std::move(scene));
+    const auto network = what_.network = build_network(what_.job, what_.registry, std::move(scene));
     if (what_.handover) what_.handover->hold(network->scene);
     if (auto* watcher = book_.account().watcher(); watcher && !leaves_out(what_.job.graph))
         watcher->share(network, what_.made_from, book_.files().scale());

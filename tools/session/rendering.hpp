@@ -40,8 +40,9 @@ struct Assignment {
     const FilmFormat& format;
     const KeptFiles& kept;
     const MadeFrom& made_from;
-    Handover* handover = nullptr;  // between the runs of a sequence; null: this one is alone
-    bool look_alone = false;       // no more than the coarse look
+    Handover* handover = nullptr;              // between the runs of a sequence; null: this one is alone
+    bool look_alone = false;                   // no more than the coarse look
+    std::shared_ptr<const Network> network{};  // with which places of this process render; null: none do, or not yet
 
     bool wants(const std::vector<Tile>& tiles) const { return !tiles.empty() && (tiles.front().coarse || !look_alone); }
 };

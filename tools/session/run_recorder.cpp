@@ -189,7 +189,7 @@ void RunRecorder::write_picture(const std::string& exr) {
     const Film& film = steps_.picture();
     auto& report = account_.report();
     if (film.complete())
-        if (const auto words = firefly_words(files_.now(), report.nodes, exr);
+        if (const auto words = firefly_words(files_.now(), report, exr);
             !words.empty() && std::find(report.warnings.begin(), report.warnings.end(), words) == report.warnings.end())
             account_.warn(words);  // once: a disk may have been full
     if (film.format().adaptive() || !film.complete())

@@ -105,6 +105,11 @@ std::string to_json(const RunReport& report) {
                          {"samples", error->samples},
                          {"relmse", error->relative_square},
                          {"mse", error->square}};
+    if (const auto& noise = report.noise) {
+        JsonTree paths = JsonTree::list();
+        for (const auto& [word, part] : noise->paths) paths.push_back({{"word", word}, {"part", part}});
+        json["noise"] = {{"relmse", noise->error}, {"pixels", noise->pixels}, {"paths", paths}};
+    }
     if (!report.hosts.empty()) json["hosts"] = hosts;
     json["phases"] = phases;
     if (!report.preparing.empty()) json["preparing"] = preparing;

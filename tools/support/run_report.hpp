@@ -102,6 +102,13 @@ struct ErrorReport {
     double relative_square = 0, square = 0;
 };
 
+/// What is known of the noise of the picture that was written, from some pixels that were computed again.
+struct NoiseReport {
+    double error = 0;          // relative square, as in ErrorReport: without a reference, from how samples differ
+    std::uint32_t pixels = 0;  // that were looked at
+    std::vector<std::pair<std::string, double>> paths;  // words of light paths, and their parts of the error
+};
+
 /// What ran where, for how long, and what was counted. All that changes from run to run stands here and never in the
 /// picture. A value.
 struct RunReport {
@@ -116,6 +123,7 @@ struct RunReport {
     std::vector<EdgeReport> edges;
     std::vector<LayerReport> layers;
     std::optional<ErrorReport> error;
+    std::optional<NoiseReport> noise;
     std::vector<HostReport> hosts;
     std::vector<PhaseReport> phases;
     std::vector<PrepareReport> preparing;
