@@ -22,7 +22,9 @@ namespace lightnet {
 namespace {
 
 constexpr std::size_t rounds = 4;
-constexpr std::size_t compared = 4;  // of so many paths one goes by surfaces alone
+constexpr std::size_t compared = 4;       // of so many paths one goes by surfaces alone
+constexpr double work_of_lesson = 2.6;    // of a path that is learnt from, in paths of the picture: measured
+constexpr double least_of_lessons = 4.5;  // times as many paths has a picture that is worth its first round
 
 // How many times less noise × work there must be after each round. The guide that is judged has not learnt from that
 // round yet, which doubles what it knows: then it helps more. Before the last round nobody is turned down who may still
@@ -30,6 +32,35 @@ constexpr std::size_t compared = 4;  // of so many paths one goes by surfaces al
 bool pays(const GuideTrial::Gain& gain, std::size_t round) {
     constexpr std::array<double, rounds> least_gain{0, 0.72, 0.8, 0.85};
     return (round + 1 < rounds ? gain.high() : gain.low()) >= least_gain[round];
+}
+
+// DECISIONS: lessons-have-a-price
+// All a guide can take away is noise: there must be more of it where a larger part of the picture's work is still to
+// be done for it.
+bool may_pay(const GuideTrial::Gain& noise, double left) { return noise.times - noise.error >= 4 * left * left; }
+
+using RoundsOfPaths = std::vector<Mapped<GuideRecord>>;  // of each: directions and, between them, whole paths
+
+std::size_t count_of(const RoundsOfPaths& found) {
+    std::size_t count = 0;
+    for (const auto& round : found)
+        count += std::size_t(std::count_if(round.begin(), round.end(), LightGuide::learns_from));
+    return count;
+}
+
+GuideTrial trial_of(const RoundsOfPaths& found, std::size_t points) {
+    GuideTrial trial(points);
+    for (const auto& round : found)
+        for (const GuideRecord& record : round) trial.add(record, &round == &found.back());
+    return trial;
+}
+/// Of paths that nobody guides.
+GuideTrial::Gain noise_of(Services& services, const RoundsOfPaths& found, std::size_t points) {
+    return *services.once<GuideTrial::Gain>([&] { return trial_of(found, points).noise_alone(); });
+}
+/// Of the paths that the last round guided, beside all that nobody did.
+GuideTrial::Gain gain_of(Services& services, const RoundsOfPaths& found, std::size_t points) {
+    return *services.once<GuideTrial::Gain>([&] { return trial_of(found, points).gain(); });
 }
 
 /// Müller, Gross & Novák 2017, "Practical Path Guiding for Efficient Light-Transport Simulation": follows light paths
@@ -44,23 +75,30 @@ public:
           key_(here.key()),
           walk_(here.scene(), {.all = true}),
           paths_(static_cast<std::size_t>(here.integer("paths"))),
+          picture_(static_cast<double>(here.integer("picture"))),
           always_(here.text("when") == "always"),
           kept_(here.kept()),
           keeps_(!here.text("keep").empty()) {}
 
     void prepare(Services& services) override {
-        Found found = older();
+        RoundsOfPaths found = older();
         const bool goes_on = !found.empty(), tries = !always_ && !goes_on;
         auto guide = goes_on ? made(services, found) : nullptr;
-        const std::vector<Query> questions = points(services);
-        bool helps = true;
+        bool helps = !tries || picture_ == 0 || picture_ >= least_of_lessons * double(paths_);
+        const std::vector<Query> questions = helps ? points(services) : std::vector<Query>();
         for (std::size_t round = 0; round < rounds && helps && !questions.empty(); ++round) {
             found.push_back(learn(services, {questions, round, guide.get(), tries}));
-            if (tries && round > 0) helps = pays(gain(services, found, questions.size()), round);
+            if (tries && round == 0 && picture_ > 0)
+                helps = may_pay(noise_of(services, found, questions.size()), work_after_first() / picture_);
+            if (tries && round > 0) helps = pays(gain_of(services, found, questions.size()), round);
             if (helps) guide = made(services, found);
         }
-        services.say(std::to_string(count_of(found)) + " directions in " + std::to_string(guide ? guide->size() : 0) +
-                     " places" + (helps ? "" : ", which help too little: paths go on by surfaces alone"));
+        if (!helps && found.empty())
+            services.say("the picture has too few paths to learn from others: they go on by surfaces alone");
+        else
+            services.say(std::to_string(count_of(found)) + " directions in " +
+                         std::to_string(guide ? guide->size() : 0) + " places" +
+                         (helps ? "" : ", which help too little: paths go on by surfaces alone"));
         if (keeps_) keep(services, found);
         guide_ = helps && guide ? guide : std::make_shared<const LightGuide>();
     }
@@ -72,7 +110,6 @@ public:
     Frozen frozen() const override { return Frozen(guide_); }
 
 private:
-    using Found = std::vector<Mapped<GuideRecord>>;  // in each round: directions and, between them, whole paths
     struct Round {
         std::span<const Query> questions;
         std::size_t number;
@@ -127,17 +164,9 @@ private:
             });
     }
 
-    /// Of the paths that the last round guided, beside all that nobody did.
-    GuideTrial::Gain gain(Services& services, const Found& found, std::size_t points) const {
-        return *services.once<GuideTrial::Gain>([&] {
-            GuideTrial trial(points);
-            for (const auto& round : found)
-                for (const GuideRecord& record : round) trial.add(record, &round == &found.back());
-            return trial.gain();
-        });
-    }
+    double work_after_first() const { return work_of_lesson * double(first_path(rounds) - first_path(1)); }
 
-    static std::shared_ptr<const LightGuide> made(Services& services, const Found& found) {
+    static std::shared_ptr<const LightGuide> made(Services& services, const RoundsOfPaths& found) {
         services.doing("builds its tree");
         return services.once<LightGuide>([&](Builders& builders) {
             std::vector<std::span<const GuideRecord>> lots;
@@ -145,16 +174,10 @@ private:
             return LightGuide(lots, builders);
         });
     }
-    static std::size_t count_of(const Found& found) {
-        std::size_t count = 0;
-        for (const auto& round : found)
-            count += std::size_t(std::count_if(round.begin(), round.end(), LightGuide::learns_from));
-        return count;
-    }
 
     // What an earlier run has kept of the same scene.
-    Found older() const {
-        Found found;
+    RoundsOfPaths older() const {
+        RoundsOfPaths found;
         if (!kept_) return found;
         found.emplace_back(kept_);
         const auto wrong = [](const GuideRecord& record) { return !LightGuide::learns_from(record); };
@@ -165,7 +188,7 @@ private:
     }
 
     // The result of the last call is what is kept.
-    static void keep(Services& services, const Found& found) {
+    static void keep(Services& services, const RoundsOfPaths& found) {
         std::vector<GuideRecord> records;
         for (const auto& round : found)
             std::copy_if(round.begin(), round.end(), std::back_inserter(records), LightGuide::learns_from);
@@ -185,6 +208,7 @@ private:
     Key key_;
     PathWalk walk_;
     std::size_t paths_;
+    double picture_;  // paths of it; 0: not known
     bool always_;
     Bytes kept_;  // what an earlier run has kept of the same scene
     bool keeps_;
@@ -200,6 +224,13 @@ std::vector<Param> guide_params() {
          .initial = Value{150000.0},
          .least = 64,
          .most = 1 << 24},
+        {.name = "picture",
+         .type = ParamType::integer,
+         .help = "light paths of the picture, by which trials weigh what learning costs; 0: not known, they do without",
+         .unit = "paths",
+         .initial = Value{0.0},
+         .least = 0,
+         .most = 9e15},
         {.name = "when",
          .type = ParamType::text,
          .help = "when paths are guided: where trials say that it pays, or always",

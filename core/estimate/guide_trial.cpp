@@ -18,11 +18,13 @@ void GuideTrial::Sums::add(const Sums& more, double times) {
 }
 
 // With a mean of one, a moment of order 3/2 is one where there is no noise.
-double GuideTrial::Sums::cost() const {
+double GuideTrial::Sums::noise() const {
     if (!(light > 0)) return 0;
     const double mean = light / paths;
-    return std::fmax(0.0, moment / paths / (mean * std::sqrt(mean)) - 1) * surfaces / paths;
+    return std::fmax(0.0, moment / paths / (mean * std::sqrt(mean)) - 1);
 }
+
+double GuideTrial::Sums::cost() const { return light > 0 ? noise() * surfaces / paths : 0; }
 
 GuideRecord GuideTrial::record_of(const Tried& tried) {
     return GuideRecord(Vec3{tried.path.radiance, tried.path.surfaces, float(2 * tried.point + tried.guided)});
@@ -59,8 +61,9 @@ std::array<GuideTrial::Kinds, GuideTrial::groups> GuideTrial::sums() const {
     return sums;
 }
 
-// Jackknife: the gain without each of the groups.
-GuideTrial::Gain GuideTrial::gain() const {
+// Jackknife: what `of` says without each of the groups.
+template <class Of>
+GuideTrial::Gain GuideTrial::with_error(const Of& of) const {
     const auto parts = sums();
     Kinds all;
     for (const Kinds& part : parts)
@@ -70,11 +73,19 @@ GuideTrial::Gain GuideTrial::gain() const {
     for (std::size_t i = 0; i < groups; ++i) {
         Kinds rest = all;
         for (std::size_t kind = 0; kind < rest.size(); ++kind) rest[kind].add(parts[i][kind], -1);
-        without[i] = times_of(rest[0].cost(), rest[1].cost());
+        without[i] = of(rest);
         mean += without[i] / groups;
     }
     for (const double times : without) squares += (times - mean) * (times - mean);
-    return {times_of(all[0].cost(), all[1].cost()), std::sqrt(squares * (groups - 1) / groups)};
+    return {of(all), std::sqrt(squares * (groups - 1) / groups)};
+}
+
+GuideTrial::Gain GuideTrial::gain() const {
+    return with_error([](const Kinds& kinds) { return times_of(kinds[0].cost(), kinds[1].cost()); });
+}
+
+GuideTrial::Gain GuideTrial::noise_alone() const {
+    return with_error([](const Kinds& kinds) { return kinds[0].noise(); });
 }
 
 }  // namespace lightnet

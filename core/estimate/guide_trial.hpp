@@ -41,6 +41,9 @@ public:
     /// the darkest points count less. Variance would hang on the few brightest paths, which may be on either side. A
     /// guided surface counts as three tenths more work. Where nothing was found: 0.
     Gain gain() const;
+    /// How much paths that go by surfaces alone differ: that moment of order 3/2, from 0 on, and its standard error. A
+    /// guide can take nothing else away.
+    Gain noise_alone() const;
 
 private:
     static constexpr std::size_t groups = 16;  // disjoint ones of points, whose gains tell the error
@@ -51,8 +54,11 @@ private:
     struct Sums {
         double light = 0, moment = 0, surfaces = 0, paths = 0;
         void add(const Sums& more, double times);
+        double noise() const;
         double cost() const;
     };
+    template <class Of>
+    Gain with_error(const Of& of) const;
     using Kinds = std::array<Sums, 2>;  // those that go by surfaces alone, and guided ones
     std::array<Kinds, groups> sums() const;
 

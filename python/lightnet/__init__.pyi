@@ -289,6 +289,8 @@ class Guide(Node):
 
     paths: integer, in paths, default 150000.0, 64.0 … 16777216.0
         light paths that it learns from
+    picture: integer, in paths, default 0.0, 0.0 … 9000000000000000.0
+        light paths of the picture, by which trials weigh what learning costs; 0: not known, they do without
     when: text, "worthwhile" | "always", default "worthwhile"
         when paths are guided: where trials say that it pays, or always
     extend: text, default ""
@@ -301,6 +303,7 @@ class Guide(Node):
         self,
         *inputs: Node,
         paths: int | None = ...,
+        picture: int | None = ...,
         when: Literal["worthwhile", "always"] | None = ...,
         extend: str | None = ...,
         keep: str | None = ...,

@@ -283,6 +283,14 @@ TEST(GuideTrial, ComparesTheNoiseOfGuidedPathsWithThatOfOthers) {
     EXPECT_EQ(GuideTrial(10).gain().times, 0) << "nothing was found";
 }
 
+TEST(GuideTrial, KnowsTheNoiseOfPathsThatNobodyGuides) {
+    const auto even = trial_of(4000, [](std::uint32_t, bool guided) { return guided ? 5.0f : 1.0f; });
+    const auto rare = trial_of(4000, [](std::uint32_t path, bool) { return path % 7 == 0 ? 7.0f : 0.0f; });
+    EXPECT_LT(even.noise_alone().times, 0.1);
+    EXPECT_GT(rare.noise_alone().times, 0.3);
+    EXPECT_EQ(GuideTrial(10).noise_alone().times, 0) << "nothing was found";
+}
+
 TEST(GuideTrial, CountsPathsOfRoundsBeforeOnlyIfNobodyGuidesThem) {
     const auto varied = [](std::uint32_t path, bool guided) {
         return 1 + (guided ? 0.01f : 0.5f) * (path / 100 % 2 ? 1.0f : -1.0f);

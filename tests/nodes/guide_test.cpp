@@ -107,6 +107,20 @@ TEST(Guide, ChangesNothingWhereItsTrialsSayThatItDoesNotPay) {
     EXPECT_NE(network_of(data, true, "indirect").picture(16), alone.picture(16));
 }
 
+// 14000 paths are learnt from: as many as a tenth of the picture's are a lot, unless there is much noise.
+TEST(Guide, IsNotLearntWhereThePictureIsTooSmallForIt) {
+    const auto data = room_with_a_screen(false);
+    const auto picture_of = [&](double paths, const char* when) {
+        SmallNetwork network(data, 24, 24);
+        network.add("guide", "Guide", {}, {{"paths", Value{14000.0}}, {"when", word(when)}, {"picture", Value{paths}}});
+        return network.add("bounce", "PathTracing", {}, {{"guide", Value{NodeRef{"guide"}}}}).picture(16);
+    };
+    const auto alone = network_of(data, false, "indirect").picture(16);
+    EXPECT_EQ(picture_of(50000, "worthwhile"), alone);
+    EXPECT_NE(picture_of(50000, "always"), alone);
+    EXPECT_EQ(picture_of(1e9, "worthwhile"), picture_of(0, "worthwhile")) << "what learning costs counts for nothing";
+}
+
 TEST(GuideRadiance, ShowsWhatTheGuideTakesToArrive) {
     auto network = network_of(furnace(0.5f, 1), true, "indirect");
     network.add("known", "GuideRadiance", {}, {{"of", Value{NodeRef{"guide"}}}}).lit_by("bounce").show({"known"});

@@ -11,10 +11,75 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 constexpr AskedPicture asked{65536, 64};
+constexpr double few = 100;  // triangles
 
 // A sixty-fourth of the picture, with 8 samples: 512 times as much work is asked for.
 LightingTrial path_trial() {
     return {.name = "path", .pixels = 1024, .samples = 8, .rendering = 0.02, .own_error = 0.08};
+}
+
+LightByKind parts(PathKind most, double part) {
+    LightByKind all{};
+    all[static_cast<std::size_t>(most)] = part;
+    return all;
+}
+LightingTrial path_trial_of(PathKind most, double part = 1) {
+    LightingTrial trial = path_trial();
+    trial.parts = parts(most, part);
+    return trial;
+}
+
+// Records leave 2e-4 where paths leave 1e-2.
+TEST(LightingPromise, IsThatCachesCoverSoftLight) {
+    const auto promise = promise_of(path_trial_of(PathKind::soft), asked, few);
+    EXPECT_EQ(promise.covers, Covers::soft);
+    EXPECT_NEAR(promise.times, 0.01 / 2e-4 / 0.35, 1e-9);
+    EXPECT_EQ(promise.why, "paths LD+D make 100 % of the error");
+}
+
+TEST(LightingPromise, IsThatPhotonsCoverCausticsAndWhatRecordsOfPathsWouldBeNoisyBy) {
+    EXPECT_EQ(promise_of(path_trial_of(PathKind::caustic), asked, few).covers, Covers::all);
+    EXPECT_EQ(promise_of(path_trial_of(PathKind::mirrored), asked, few).covers, Covers::all);
+    LightingTrial noisy = path_trial_of(PathKind::soft);
+    noisy.own_error = 1;
+    EXPECT_EQ(promise_of(noisy, asked, few).covers, Covers::all);
+}
+
+TEST(LightingPromise, IsLessClearInSmallPicturesOfDetailedScenes) {
+    LightingTrial trial = path_trial_of(PathKind::caustic);
+    trial.own_error = 0.008;
+    EXPECT_TRUE(promise_of(trial, asked, few).is_clear);
+    EXPECT_TRUE(promise_of(trial, asked, 1e6).is_clear);
+    const AskedPicture small{4096, 64};
+    EXPECT_TRUE(promise_of(trial, small, few).is_clear);
+    EXPECT_FALSE(promise_of(trial, small, 1e6).is_clear);
+    EXPECT_EQ(promise_of(trial, small, 1e6).covers, Covers::soft) << "maps take long, to be tried";
+}
+
+TEST(LightingPromise, IsNoneWhereDirectLightMakesTheNoise) {
+    const auto promise = promise_of(path_trial_of(PathKind::direct), asked, few);
+    EXPECT_EQ(promise.covers, Covers::nothing);
+    EXPECT_LT(promise.times, least_promise);
+}
+
+TEST(LightingPromise, IsAGuideWhereSoftLightMakesSomeOfIt) {
+    LightingTrial trial = path_trial_of(PathKind::direct, 0.75);
+    trial.parts[static_cast<std::size_t>(PathKind::soft)] = 0.25;
+    EXPECT_EQ(promise_of(trial, asked, few).covers, Covers::narrow);
+}
+
+TEST(LightingPromise, EndsWithManySamples) {
+    EXPECT_EQ(promise_of(path_trial_of(PathKind::soft), {65536, 16384}, few).covers, Covers::narrow)
+        << "records stay as they are";
+    EXPECT_EQ(promise_of(path_trial(), asked, few).covers, Covers::nothing) << "nobody knows what makes the error";
+}
+
+TEST(LightingChoice, TakesWhatWasForetold) {
+    LightingTrial foretold{.name = "irradiance_cache", .foretold = "paths LD+D make 99 % of the error"};
+    const std::vector trials{path_trial(), foretold};
+    EXPECT_EQ(best_lighting(trials, asked), 1u);
+    EXPECT_THAT(words_of_choice(trials, asked, 1),
+                StartsWith("irradiance_cache (paths LD+D make 99 % of the error), "));
 }
 
 TEST(LightingChoice, TakesNoiseAndWorkToThePictureThatIsAskedFor) {

@@ -11,6 +11,7 @@
 #include "core/base/json.hpp"
 #include "core/base/own_process.hpp"
 #include "core/base/plain_file.hpp"
+#include "core/readers/statistics.hpp"
 #include "tools/cli/lightings.hpp"
 #include "tools/cli/loading.hpp"
 #include "tools/cli/request_of.hpp"
@@ -22,7 +23,7 @@ namespace lightnet {
 namespace {
 
 constexpr double trial_samples = 8;
-constexpr double part_of_work = 0.02;  // of the picture's samples: what the two trials of the first one have together
+constexpr double part_of_work = 0.01;                           // of the picture's samples: what a trial has
 constexpr double least_pixels = 1024, most_pixels = 160 * 160;  // of a trial
 constexpr double part_of_photons = 0.02;                        // of those that each sample of the picture has
 
@@ -35,7 +36,7 @@ struct TrialSize {
 
 TrialSize trial_size(const PictureSize& whole, double pixels, double samples) {
     const double own = std::min(trial_samples, samples);
-    const double wanted = std::clamp(part_of_work * pixels * samples / (2 * own), least_pixels, most_pixels);
+    const double wanted = std::clamp(part_of_work * pixels * samples / own, least_pixels, most_pixels);
     const double shrinks = std::min(1.0, std::sqrt(wanted / pixels));
     const auto side = [&](std::uint32_t length) {
         return std::max(1u, static_cast<std::uint32_t>(std::lround(shrinks * length)));
@@ -96,8 +97,9 @@ public:
 
     LightingOfRun choose() {
         say();
-        requests_.front().request.read = picture_.read;
         TrialCourse course;
+        if (picture_.read) course.triangles = double(statistics_of(picture_.read->scene).instanced_triangles);
+        requests_.front().request.read = picture_.read;
         course.run = launcher_.try_run;
         course.processor_seconds = processor_seconds;
         course.asked = asked_;
@@ -120,6 +122,7 @@ private:
         TrialRequest added{lighting.name,       request(lighting, running_of_trial(picture_.running, trial), {}),
                            std::move(excluded), lighting.is_biased,
                            lighting.is_biased,  known_of(lighting, trial)};
+        fit_pixels(trial, added);
         fit_photons(lighting, added);
         requests_.push_back(std::move(added));
     }
@@ -148,11 +151,20 @@ private:
     LightingTrial known_of(const Lighting& lighting, const TrialSize& trial) const {
         LightingTrial known;
         known.samples = trial.samples;
+        known.covers = lighting.covers;
         if (lighting.is_biased) known.preparing_grows = 1 / trial.shrinks;  // records lie along what is seen
         if (lighting.learns)
             known.preparing_grows =
                 lessons_of(std::uint64_t(asked_.pixels), std::uint64_t(asked_.samples)) / lessons_of(0, 0);
         return known;
+    }
+
+    // A pixel of a trial is as large as one of the picture, and others lie between them: edges would make more noise in
+    // large ones.
+    static void fit_pixels(const TrialSize& size, TrialRequest& trial) {
+        constexpr double half_a_pixel = 0.5;
+        for (Node& node : trial.request.graph.nodes)
+            if (node.kind == "RayTracer") node.params["filter_radius"].data = half_a_pixel * size.shrinks;
     }
 
     // Photons of each sample are as many for a small picture as for a large one: a trial has fewer.

@@ -89,6 +89,7 @@ const std::vector<Lighting>& lightings() {
          .graph = "irradiance_cache.lua",
          .is_biased = true,
          .on_trial = true,
+         .covers = Covers::soft,
          .shows = "soft light interpolated, caustics by photons"},
         {.name = "progressive",
          .graph = "progressive.lua",
@@ -99,11 +100,13 @@ const std::vector<Lighting>& lightings() {
          .graph = "guided.lua",
          .learns = true,
          .on_trial = true,
+         .covers = Covers::narrow,
          .shows = "paths that learn where light is"},
         {.name = "figure5",
          .graph = "paper/figure5.lua",
          .is_biased = true,
          .on_trial = true,
+         .covers = Covers::all,
          .shows = "soft light interpolated over photon maps"},
         {.name = "direct", .graph = "", .shows = "direct light only"},
         {.name = "ao", .graph = "", .shows = "ambient occlusion"},
@@ -144,7 +147,10 @@ double lessons_of(std::uint64_t pixels, std::uint64_t samples) {
 void settle_lighting(Graph& graph, std::uint64_t pixels, std::uint64_t samples) {
     constexpr double most_lessons = 1 << 24;  // of the kind
     for (auto& node : graph.nodes)
-        if (node.kind == "Guide") node.params["paths"] = number(std::min(most_lessons, lessons_of(pixels, samples)));
+        if (node.kind == "Guide") {
+            node.params["paths"] = number(std::min(most_lessons, lessons_of(pixels, samples)));
+            node.params["picture"] = number(double(pixels * samples) * paths_per_sample);
+        }
 }
 
 }  // namespace lightnet

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/network/graph/graph.hpp"
+#include "tools/trials/lighting_choice.hpp"
 
 namespace lightnet {
 
@@ -16,11 +17,12 @@ inline constexpr std::string_view lighting_by_trials = "auto";
 /// A name, and what its picture's error is made of.
 struct Lighting {
     std::string name;
-    std::string graph;       // file that ships with the same network, in graphs/; "": none does
-    bool is_biased = false;  // noise tells only a part of its error
-    bool learns = false;     // what it prepares grows with the picture's samples (see settle_lighting())
-    bool on_trial = false;   // may be chosen
-    std::string shows = "";  // in words, for help
+    std::string graph;                // file that ships with the same network, in graphs/; "": none does
+    bool is_biased = false;           // noise tells only a part of its error
+    bool learns = false;              // what it prepares grows with the picture's samples (see settle_lighting())
+    bool on_trial = false;            // may be chosen
+    Covers covers = Covers::nothing;  // for which light paths
+    std::string shows = "";           // in words, for help
 };
 
 /// All of them. The first that may be chosen has no bias.

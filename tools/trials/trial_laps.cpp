@@ -22,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double for_ever = 1e9;
+constexpr double looks_of_first = 0.5;  // part of its samples that tell which light paths make the error
 
 /// What phases of a run took, by its report: seconds on the clock.
 struct Phases {
@@ -51,6 +52,16 @@ Phases phases_of(const Json& report) {
     return phases;
 }
 
+void take_noise(const Json& report, LightingTrial& figures) {
+    if (!report.has("noise")) return;
+    const Json& noise = report.at("noise");
+    figures.own_error = noise.at("relmse").number();
+    for (const auto& paths : noise.at("paths").list())
+        for (std::size_t kind = 0; kind < path_kinds; ++kind)
+            if (paths.at("word").text() == word_of(static_cast<PathKind>(kind)))
+                figures.parts[kind] = paths.at("part").number();
+}
+
 class Laps {
 public:
     explicit Laps(const TrialCourse& course) : course_(course) {}
@@ -61,7 +72,8 @@ public:
         const auto file = fs::path(folder_.path()) / "trial.exr";
         request.output = file.string();
         if (lap > 0) request.read.reset();  // the first has taken it away
-        request.seed += 1 + lap;            // none of the picture that is asked for
+        request.looks = lap == 0 ? looks_of_first : 0;
+        request.seed += 1 + lap;  // none of the picture that is asked for
         const double before = course_.processor_seconds();
         const int code = course_.run(request, most);
         const double used = course_.processor_seconds() - before;
@@ -79,6 +91,7 @@ public:
         used_ += used_ > 0 ? used : rendered;
         figures.preparing = prepared, figures.rendering += rendered;
         figures.preparing_grows = 1 + (trial.known.preparing_grows - 1) * (trial.records ? part_of_records(report) : 1);
+        take_noise(report, figures);
         Picture picture = read_exr(file);
         figures.pixels = double(picture.beauty.size());
         return picture;
@@ -100,13 +113,12 @@ public:
 
     std::vector<LightingTrial> run() {
         run_first();
+        promise_ = promise_of(trials_.front(), course_.asked, course_.triangles);
+        if (!is_allowed(promise_.covers)) promise_.covers = instead();
         for (std::size_t i = 1; i < requests_.size(); ++i) {
             LightingTrial figures = beginning(requests_[i]);
-            try {
-                run_other(requests_[i], figures);
-            } catch (const std::runtime_error& error) {  // Error and UserError
-                figures.failed = error.what();
-            }
+            figures.failed = requests_[i].excluded;
+            if (figures.failed.empty()) look_at(requests_[i], figures);
             trials_.push_back(std::move(figures));
         }
         return trials_;
@@ -118,23 +130,56 @@ private:
         figures.name = request.name;
         return figures;
     }
+    bool is_allowed(Covers covers) const {
+        return std::any_of(requests_.begin(), requests_.end(), [&](const TrialRequest& request) {
+            return request.excluded.empty() && request.known.covers == covers;
+        });
+    }
+    // Where hosts, or options of the picture, exclude what was promised, or path tracing itself.
+    Covers instead() const {
+        if (promise_.covers == Covers::nothing || promise_.covers == Covers::narrow)
+            if (is_allowed(Covers::nothing)) return Covers::nothing;
+        for (const Covers other : {Covers::soft, Covers::all, Covers::narrow})
+            if (is_allowed(other)) return other;
+        return Covers::nothing;
+    }
 
     void run_first() {
         LightingTrial figures = beginning(requests_.front());
-        for (std::uint64_t lap = 0; lap < pair_.size(); ++lap)
-            pair_[lap] = laps_.run(requests_.front(), lap, figures, for_ever).value();
-        figures.rendering /= 2;
-        figures.own_error = errors_of(pair_, {}).front().own;
+        pair_[0] = laps_.run(requests_.front(), 0, figures, for_ever).value();
         figures.failed = requests_.front().excluded;
         trials_.push_back(std::move(figures));
     }
+    // Only where another is to be judged.
+    void complete_pair() {
+        if (!pair_[1].beauty.empty()) return;
+        LightingTrial& first = trials_.front();
+        pair_[1] = laps_.run(requests_.front(), 1, first, for_ever).value();
+        first.rendering /= 2;
+        first.own_error = errors_of(pair_, {}).front().own;
+    }
+
+    void look_at(const TrialRequest& request, LightingTrial& figures) {
+        const bool learns = promise_.covers == Covers::narrow;  // and finds out by itself whether that pays
+        if (promise_.covers == Covers::nothing || request.known.covers != promise_.covers) {
+            figures.failed = "not tried";
+        } else if (learns || promise_.is_clear) {
+            figures.foretold = promise_.why;
+        } else {
+            try {
+                run_other(request, figures);
+            } catch (const std::runtime_error& error) {  // Error and UserError
+                figures.failed = error.what();
+            }
+        }
+    }
 
     void run_other(const TrialRequest& request, LightingTrial& figures) {
-        figures.failed = request.excluded;
-        if (!figures.failed.empty()) return;
+        complete_pair();
         const auto best = forecast_of(trials_[best_lighting(trials_, course_.asked)], course_.asked);
-        // What takes too long leaves as much to the others.
-        const double most = (course_.most_part * best.seconds - laps_.used()) / 2;
+        // The more it promises, the longer it may take.
+        const double part = std::clamp(course_.part_of_promise * promise_.times, course_.least_part, course_.most_part);
+        const double most = part * best.seconds - laps_.used();
         if (most < course_.least_seconds) {
             figures.failed = "not tried, as trials have taken their part of the time";
             return;
@@ -155,7 +200,8 @@ private:
     const std::vector<TrialRequest>& requests_;
     const TrialCourse& course_;
     Laps laps_;
-    PicturePair pair_;
+    PicturePair pair_;  // the second once another is to be judged
+    LightingPromise promise_;
     std::vector<LightingTrial> trials_;
 };
 

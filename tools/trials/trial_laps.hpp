@@ -28,15 +28,19 @@ struct TrialCourse {
     std::function<int(const RunRequest&, double seconds)> run;
     std::function<double()> processor_seconds;  // that this process has used
     AskedPicture asked;
-    double most_part = 0.1;       // of what the best so far takes: for all trials together
+    double triangles = 0;  // of the scene
+    // Of what the best so far takes, for all trials together: so much for each time that less error x time is promised,
+    // but no less and no more than that.
+    double part_of_promise = 0.02, least_part = 0.06, most_part = 0.3;
     double least_seconds = 0.05;  // with less left, no other trial begins
 };
 
 /// The user has told a trial to end.
 struct TrialInterrupted {};
 
-/// Figures of all, in their order. The first one, by which the others are judged, is rendered twice, has as long as it
-/// takes, and must not fail: throws Error or UserError where it does. Throws TrialInterrupted where the user ends one.
+/// Figures of all, in their order. The first one has as long as it takes, and must not fail: throws Error or UserError
+/// where it does. What it says of light paths decides which others are tried at all: see promise_of(). They are judged
+/// by it, for which it is rendered twice. Throws TrialInterrupted where the user ends one.
 std::vector<LightingTrial> run_trials(const std::vector<TrialRequest>& requests, const TrialCourse& course);
 
 }  // namespace lightnet
