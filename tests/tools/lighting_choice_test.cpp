@@ -97,15 +97,6 @@ TEST(LightingChoice, CountsPreparingOnceAndWhatNeighboursShareInFull) {
     EXPECT_DOUBLE_EQ(forecast_of(cache, {65536, 6400}).error, 0.0001 + 0.003) << "no number of samples takes it away";
 }
 
-TEST(LightingChoice, LetsPhotonsOfEachSampleGetSharpSlowly) {
-    LightingTrial photons = path_trial();
-    photons.preparing = 0.1, photons.preparing_grows = 64, photons.falls = 1.0 / 16, photons.shared_error = 0.04;
-    photons.progressive = true;
-    const auto expected = forecast_of(photons, asked);
-    EXPECT_DOUBLE_EQ(expected.seconds, 6.4 + 0.02 * 512);
-    EXPECT_NEAR(expected.error, (0.08 + 0.04) / 16 / 4, 1e-12) << "8 times the samples, a quarter of the error";
-}
-
 TEST(LightingChoice, TakesTheLeastErrorTimesTime) {
     LightingTrial quick = path_trial(), exact = path_trial();
     quick.name = "quick", quick.rendering = 0.01;

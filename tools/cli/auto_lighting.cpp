@@ -25,7 +25,6 @@ namespace {
 constexpr double trial_samples = 8;
 constexpr double part_of_work = 0.01;                           // of the picture's samples: what a trial has
 constexpr double least_pixels = 1024, most_pixels = 160 * 160;  // of a trial
-constexpr double part_of_photons = 0.02;                        // of those that each sample of the picture has
 
 /// How a picture is tried: smaller, and with few samples.
 struct TrialSize {
@@ -123,7 +122,6 @@ private:
                            std::move(excluded), lighting.is_biased,
                            lighting.is_biased,  known_of(lighting, trial)};
         fit_pixels(trial, added);
-        fit_photons(lighting, added);
         requests_.push_back(std::move(added));
     }
 
@@ -165,19 +163,6 @@ private:
         constexpr double half_a_pixel = 0.5;
         for (Node& node : trial.request.graph.nodes)
             if (node.kind == "RayTracer") node.params["filter_radius"].data = half_a_pixel * size.shrinks;
-    }
-
-    // Photons of each sample are as many for a small picture as for a large one: a trial has fewer.
-    void fit_photons(const Lighting& lighting, TrialRequest& trial) const {
-        if (lighting.name != "progressive") return;
-        for (Node& node : trial.request.graph.nodes)
-            if (auto* photons = node.kind == "ProgressivePhotonMapping" ? &node.params["photons"] : nullptr)
-                photons->data = std::round(std::get<double>(photons->data) * part_of_photons);
-        trial.records = false;
-        trial.known.progressive = true;
-        trial.known.falls = part_of_photons;
-        constexpr double maps_each = 16;  // of a pass, which has all of them, however few samples it has
-        trial.known.preparing_grows = std::ceil(asked_.samples / maps_each) / part_of_photons;
     }
 
     const UnlitPicture& picture_;

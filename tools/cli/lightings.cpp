@@ -94,7 +94,6 @@ const std::vector<Lighting>& lightings() {
         {.name = "progressive",
          .graph = "progressive.lua",
          .is_biased = true,
-         .on_trial = true,
          .shows = "photons, for caustics"},
         {.name = "guided",
          .graph = "guided.lua",

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 namespace lightnet {
@@ -70,9 +69,7 @@ LightingPromise promise_of(const LightingTrial& first, const AskedPicture& asked
 LightingForecast forecast_of(const LightingTrial& trial, const AskedPicture& asked) {
     const double longer = asked.samples / trial.samples, larger = asked.pixels / trial.pixels;
     const double seconds = trial.preparing * trial.preparing_grows + trial.rendering * larger * longer;
-    if (trial.progressive)
-        return {seconds, (trial.own_error + trial.shared_error) * trial.falls * std::pow(longer, -2.0 / 3)};
-    return {seconds, trial.own_error * trial.falls / longer + trial.shared_error};
+    return {seconds, trial.own_error / longer + trial.shared_error};
 }
 
 std::size_t best_lighting(const std::vector<LightingTrial>& trials, const AskedPicture& asked) {

@@ -25,9 +25,6 @@ struct LightingTrial {
     double preparing_grows = 1;           // of the picture that is asked for: so many times as long
     double own_error = 0;                 // that neighbours don't share: falls as 1 / samples
     double shared_error = 0;              // noise of records and photons, and bias: stays
-    double falls = 1;                     // of the picture that is asked for: so many times as much, beside samples
-    /// Photons of each sample: all of it falls as samples^-2/3 (Knaus & Zwicker 2011, with alpha 2/3).
-    bool progressive = false;
     Covers covers = Covers::nothing;
     LightByKind parts{};  // of its error: light paths of each kind; all 0: not known
 };

@@ -18,7 +18,7 @@ struct TrialRequest {
     std::string excluded{};  // why it can't be chosen, and isn't tried but for judging others; "": it can
     bool is_biased = false;  // noise tells only a part of its error
     bool records = false;    // of what it prepares, only records along what is seen grow with the picture
-    /// What of the figures is known before: how preparing grows, how noise falls, whether it is progressive.
+    /// What of the figures is known before: how preparing grows.
     LightingTrial known{};
 };
 
