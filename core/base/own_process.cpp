@@ -76,6 +76,13 @@ ProcessFigures process_figures() {
     return figures;
 }
 
+std::chrono::nanoseconds thread_ready_time() {
+    std::ifstream in("/proc/thread-self/schedstat");
+    std::uint64_t ran = 0, ready = 0;
+    if (!(in >> ran >> ready)) return {};
+    return std::chrono::nanoseconds(ready);
+}
+
 std::uint64_t own_threads() { return own_stat().threads; }
 
 std::uint64_t peak_memory() {

@@ -1,6 +1,7 @@
 // Figures of this process, for reports and metrics. Nothing that is computed depends on them.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 namespace lightnet {
@@ -16,6 +17,8 @@ struct ProcessFigures {
 ProcessFigures process_figures();
 /// That all its threads have had so far; 0 where the system doesn't say.
 double processor_seconds();
+/// So long this thread could have run while others had the processor; 0 where the system doesn't say.
+std::chrono::nanoseconds thread_ready_time();
 /// How many threads this process has; 0 where the system doesn't say.
 std::uint64_t own_threads();
 

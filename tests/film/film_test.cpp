@@ -244,8 +244,8 @@ TEST(Film, HasNoPixelThatIsMoreThanAFloatHolds) {
 }
 
 TEST(Film, ShowsOfACoarseLookWhatNeighboursShow) {
-    FilmFormat format{7, 5, {"a", "b"}, 64};
-    Film film(coarse_look(format));
+    const FilmFormat small{7, 5, {"a", "b"}, 64};
+    Film film(coarse_look(small));
     for (const Tile& tile : tiles_of(film.format(), 4)) {
         std::vector<Rgb> told;
         for (std::uint32_t y = tile.y; y < tile.y + tile.height; y += coarse_stride)

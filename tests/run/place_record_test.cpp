@@ -22,6 +22,18 @@ TEST(PlaceRecord, SurvivesItsWayAsText) {
     EXPECT_TRUE(place_records_from(to_text(std::vector<PlaceRecord>{})).empty());
 }
 
+TEST(PlaceRecord, KeepsAShareOfWorkAlone) {
+    PlaceRecord record = some_record(0);
+    record.nodes.begin()->second = {1, 200, 3, 4, 5, 6, 70, 80, 9, {{{80, 3}, {84, 5}}}};
+    record.edges.begin()->second = {6, 7, 800, 9, 10, 11, 12, 13, 140};
+    keep_of_work(0.5, record);
+    const NodeRecord node{1, 100, 3, 4, 5, 6, 35, 40, 9, {{{76, 3}, {80, 5}}}};
+    EXPECT_EQ(record.nodes.begin()->second, node) << "half the cost is an octave, four steps";
+    const EdgeRecord edge{6, 7, 400, 9, 10, 11, 12, 13, 70};
+    EXPECT_EQ(record.edges.begin()->second, edge);
+    EXPECT_EQ(record.lived_ns, some_record(0).lived_ns);
+}
+
 TEST(PlaceRecord, IsRefusedWhenItIsNone) {
     const std::string text = to_text(std::vector{some_record(1)});
     for (const auto& wrong : {std::string("{}"), std::string("[1]"), text.substr(0, text.size() - 3)})

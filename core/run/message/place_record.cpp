@@ -1,9 +1,23 @@
 #include "core/run/message/place_record.hpp"
 
+#include <utility>
+
 #include "core/base/json.hpp"
 #include "core/base/json_tree.hpp"
 
 namespace lightnet {
+
+void keep_of_work(double share, PlaceRecord& record) {
+    const auto keep = [share](std::uint64_t& ns) { ns = static_cast<std::uint64_t>(share * static_cast<double>(ns)); };
+    for (auto& [name, node] : record.nodes) {
+        for (auto* ns : {&node.busy_ns, &node.shard_ns, &node.prepare_ns}) keep(*ns);
+        CostSpread costs;
+        for (const auto& [step, count] : node.costs.counts) costs.add(share * CostSpread::ns_of(step), count);
+        node.costs = std::move(costs);
+    }
+    for (auto& [ends, edge] : record.edges)
+        for (auto* ns : {&edge.called_ns, &edge.learning_ns}) keep(*ns);
+}
 
 // Lists of numbers in the order of the members: many hosts send one at the same time.
 std::string to_text(const std::vector<PlaceRecord>& records) {

@@ -42,7 +42,8 @@ struct CostSpread {
 
 struct NodeRecord {
     std::uint64_t answered = 0;    // work that other places, or the launcher, asked: questions, blocks of tiles, shards
-    std::uint64_t busy_ns = 0;     // running for it, with the nodes that were called
+    std::uint64_t busy_ns = 0;     // running for it, with the nodes that were called; all without what it waited for a
+                                   // processor that others had
     std::uint64_t bundles = 0;     // that this place sent to others for this node
     std::uint64_t replies = 0;     // that were answered
     std::uint64_t latency_ns = 0;  // from sending to the answer, of all of them together
@@ -65,6 +66,9 @@ struct PlaceRecord {
     std::map<std::pair<std::string, std::string>, EdgeRecord> edges;  // asker, asked
     friend bool operator==(const PlaceRecord&, const PlaceRecord&) = default;
 };
+
+/// Leaves `share` of all time that its nodes ran, and of what pieces of their work cost.
+void keep_of_work(double share, PlaceRecord& record);
 
 std::string to_text(const std::vector<PlaceRecord>& records);
 /// Reads it back. Throws Error on anything else.

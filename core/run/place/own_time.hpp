@@ -13,12 +13,22 @@ class OwnTime {
 public:
     using Nanoseconds = std::chrono::nanoseconds;
 
+    /// Of the thread whose time it is.
+    OwnTime();
+
     Nanoseconds now() const;
     /// It meant to sleep for `meant` at most, and was back after `took`: what is beyond, it waited for a processor.
-    void slept(Nanoseconds meant, Nanoseconds took) { slept_ += std::min(meant, took); }
+    void slept(Nanoseconds meant, Nanoseconds took) {
+        slept_ += std::min(meant, took);
+        overslept_ += std::max(took - meant, Nanoseconds{0});
+    }
+    /// The part of so much time at work in which it was not ready to run while others had the processor; 1 where the
+    /// system does not tell.
+    double share_of(Nanoseconds at_work) const;
 
 private:
-    Nanoseconds slept_{0};
+    Nanoseconds slept_{0}, overslept_{0};
+    Nanoseconds ready_before_;  // of its thread, when it began
 };
 
 }  // namespace lightnet

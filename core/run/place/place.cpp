@@ -1,5 +1,7 @@
 #include "core/run/place/place.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <set>
 #include <utility>
 
@@ -34,7 +36,8 @@ Place::Place(const Network& network, const PlaceAt& me, const Plan& plan, std::u
       inbox_({network, tuning_, gauge, counters_}),
       ports_({network, me_, run, tuning_, carrier, gauge, counters_, fibers_, wake(),
               [this]() -> Assembly& { return assembly_; }, [this] { pause(); },
-              [this](std::size_t node, std::chrono::nanoseconds took) { inbox_.answered_here(node, took); }},
+              [this](std::size_t node, std::chrono::nanoseconds took) { inbox_.answered_here(node, took); },
+              service_.own_time},
              plan_),
       locks_(fibers_, wake(), reply()),
       meter_(
@@ -279,6 +282,11 @@ PlaceRecord Place::record() const {
         auto& to = record.nodes[nodes[node].name];
         to.bundles = sent.bundles.get(), to.replies = sent.answered.get(), to.latency_ns = sent.nanoseconds.get();
     }
+    // DECISIONS: costs-without-others
+    const auto away = record.waited_ns + record.idle_ns;
+    keep_of_work(
+        service_.own_time.share_of(std::chrono::nanoseconds(record.lived_ns - std::min(away, record.lived_ns))),
+        record);
     return record;
 }
 

@@ -20,6 +20,7 @@
 #include "core/run/message/carrier.hpp"
 #include "core/run/message/tuning.hpp"
 #include "core/run/place/answerer.hpp"
+#include "core/run/place/own_time.hpp"
 #include "core/run/place/place_inbox.hpp"
 #include "core/run/place/place_locks.hpp"
 #include "core/run/place/place_ports.hpp"
@@ -89,6 +90,7 @@ private:
         std::atomic<std::uint64_t>* progress = nullptr;
         Clock::time_point begun{};
         bool stopping = false;
+        OwnTime own_time{};
     } service_;
 
     Fibers fibers_;

@@ -75,7 +75,8 @@ Port* PlacePorts::bundle_port_to(Key key) {
     remote.edge = {static_cast<std::uint32_t>(node), credit, {}, {}};
     if (tuning.call_own_nodes) remote.edge.reserve = at_.me;
     remote.port = std::make_unique<BundlePort>(
-        at_.fibers, at_.wake, width, bundles, [this] { return own_time_.now(); }, &at_.gauge.nodes[node], &at_.gauge);
+        at_.fibers, at_.wake, width, bundles, [this] { return at_.own_time.now(); }, &at_.gauge.nodes[node],
+        &at_.gauge);
     remote.port->replicas().follow(multiplexer_rules(node), &at_.counters);
     remote.port->keep_back(called_here(node) && helpers_of(node) > 0);
     channels_.connect(remote.edge, remote.port->replicas(), plan_for(node));
@@ -121,7 +122,7 @@ void PlacePorts::wait() {
     const auto now = Clock::now();
     for (const auto& [key, remote] : remotes_) least = std::min(least, remote.port->until_due(now));
     at_.carrier.wait(least);
-    own_time_.slept(least, Clock::now() - now);
+    at_.own_time.slept(least, Clock::now() - now);
 }
 
 }  // namespace lightnet

@@ -42,6 +42,7 @@ public:
         std::function<void()> pause;          // called at every ask of a node of this place
         /// Told how long an answer took to what helpers have left.
         std::function<void(std::size_t node, std::chrono::nanoseconds)> answered_own;
+        OwnTime& own_time;  // is told of each sleep
     };
     PlacePorts(Lent lent, const Plan& plan);
 
@@ -90,7 +91,6 @@ private:
     void answer_own(const Relieved& relieved, const Bundle<Query>& bundle);
 
     Lent at_;
-    OwnTime own_time_;
     Plan plan_;
     std::map<Key, std::unique_ptr<RoutingPort>> ports_;
     std::vector<Relieved> relieved_;
