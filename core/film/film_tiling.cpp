@@ -81,8 +81,8 @@ void FilmTiling::expect_valid(const Tile& tile, std::size_t colours) const {
         throw Error("film", fmt::format("no tile of this picture: {}x{} pixels at {},{}, {} samples from {}",
                                         tile.width, tile.height, tile.x, tile.y, tile.samples, tile.first_sample));
     if (colours != tile.told() * colours_)
-        throw Error("film", fmt::format("a tile of {} pixels and {} layers came with {} colours", tile.told(),
-                                        colours_, colours));
+        throw Error("film", fmt::format("a tile of {} pixels and {} layers came with {} colours", tile.told(), colours_,
+                                        colours));
 }
 
 }  // namespace lightnet

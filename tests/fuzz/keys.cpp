@@ -61,8 +61,8 @@ void knock(std::span<const std::byte> bytes) {
     if (!rights.may(keys[who], header->type, of_the_run)) return;
     if (who > 2) throw std::logic_error("a stranger is listened to");
     const bool about_the_line = header->type >= packet::Type::part;
-    if (who == 2 && header->type != packet::Type::ask_light && !about_the_line)
-        throw std::logic_error("a member orders");
+    const bool asks = header->type == packet::Type::ask_light || header->type == packet::Type::fetch;
+    if (who == 2 && !asks && !about_the_line) throw std::logic_error("a member orders");
     if (who == 1 && (of_the_run || header->type < packet::Type::hello)) throw std::logic_error("a guest orders");
 }
 

@@ -115,7 +115,8 @@ TEST(PhotonMaps, GetTheLightThatFireEmits) {
         EXPECT_NEAR(sum.r, wanted.r, 0.03 * wanted.r);
         EXPECT_NEAR(sum.g, wanted.g, 0.03 * wanted.g);
         EXPECT_NEAR(sum.b, wanted.b, 0.03 * wanted.b);
-        EXPECT_NEAR(later.g, sum.g, 0.02 * sum.g) << "what media emit counts as scattered by them";
+        // Each map is off by a hundredth or so; without what media emit tens of hundredths would be missing.
+        EXPECT_NEAR(later.g, sum.g, 0.05 * sum.g) << "what media emit counts as scattered by them";
     }
 }
 

@@ -18,7 +18,8 @@ std::vector<Rgb> pixels_of(const Tile& tile) {
 }
 
 TEST(CutTiles, PutPixelsWhereTheyBelongInWhateverOrderPiecesCome) {
-    for (const Tile tile : {Tile{32, 64, 32, 32, 16, 16}, Tile{5, 7, 37, 19, 0, 16}, Tile{0, 0, 64, 8, 0, 3}, Tile{3, 5, 54, 51, 0, 1, 2, 1}}) {
+    for (const Tile tile : {Tile{32, 64, 32, 32, 16, 16}, Tile{5, 7, 37, 19, 0, 16}, Tile{0, 0, 64, 8, 0, 3},
+                            Tile{3, 5, 54, 51, 0, 1, 2, 1}}) {
         CutTiles cut;
         auto pieces = cut.cut(tile, 64);
         ASSERT_GT(pieces.size(), 1u);

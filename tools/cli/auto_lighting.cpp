@@ -187,7 +187,7 @@ LightingOfRun lighting_of_earlier(const std::vector<std::string>& pictures) {
                 const Json& settings = report.at("settings");
                 if (!settings.has("lighting") || !settings.has("lighting_trials")) continue;
                 const auto& name = settings.at("lighting").text();
-                if (const Lighting* known = find_lighting(name); known && known->on_trial)
+                if (find_lighting(name))  // an earlier version may have chosen among others
                     return {name, settings.at("lighting_trials").text()};
             } catch (const Error&) {  // there is none, or it is no report: nothing to go on with
             }

@@ -37,6 +37,20 @@ std::string seen_from_elsewhere(const std::string& endpoint) {
     return number && number->is_unspecified() ? TcpEndpoint{machine_name(), parts->port}.text() : endpoint;
 }
 
+// Where hosts come from stays as it is; of the run before nothing does.
+Cluster::Options with_hosts_of(Cluster::Options before, Cluster::Options next) {
+    next.endpoints = std::move(before.endpoints);
+    next.listen = std::move(before.listen);
+    next.key = std::move(before.key);
+    next.host_keys = std::move(before.host_keys);
+    next.join_keys = std::move(before.join_keys);
+    next.pass = std::move(before.pass);
+    next.expected = std::move(before.expected);
+    next.threads = before.threads;
+    next.transport = std::move(before.transport);
+    return next;
+}
+
 }  // namespace
 
 Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<double()> done)
@@ -60,6 +74,7 @@ Crew::Crew(const RunRequest& request, Cluster::Options cluster, std::function<do
     cluster.threads = request.threads;
     if (request.shown) cluster.transport = lines_ahead(zmq_hosts());
     options_ = std::move(cluster);
+    speak_for_run();
     cluster_ = std::make_unique<Cluster>(options_);
     if (!request.listen.empty()) say_("hosts may join at " + seen_from_elsewhere(cluster_->join_endpoint()));
     if (request.slurm.daemons) start_slurm();
@@ -119,6 +134,18 @@ void Crew::connect() {
     cluster_ = std::make_unique<Cluster>(options_);
 }
 
+// Hosts may still be heard when a run is over, and nobody of it is there any more to be told.
+void Crew::speak_for_run() {
+    say_ = std::move(options_.say);
+    warn_ = options_.warn ? std::move(options_.warn) : say_;
+    options_.say = [this](const std::string& text) {
+        if (!ends_) say_(text);
+    };
+    options_.warn = [this](const std::string& text) {
+        if (!ends_) warn_(text);
+    };
+}
+
 void Crew::end_soon() {
     cluster_->finish(0ms);
     ends_ = true;
@@ -126,20 +153,13 @@ void Crew::end_soon() {
 
 void Crew::begin_next(const RunRequest& request, Cluster::Options cluster, std::function<double()> done) {
     constexpr auto until_ended = 300ms;  // who has not by then says that it is busy
-    if (std::exchange(ends_, false)) cluster_->finish(until_ended);
+    if (ends_) cluster_->finish(until_ended);
+    ends_ = false;
     some_missing_ = !cluster_->missing().empty();
     request_ = &request;
-    say_ = cluster.say;
     done_ = std::move(done);
-    options_.run = cluster.run;
-    options_.who = std::move(cluster.who);
-    options_.liars = std::move(cluster.liars);
-    options_.network = std::move(cluster.network);
-    options_.job = std::move(cluster.job);
-    options_.files = std::move(cluster.files);
-    options_.plan = std::move(cluster.plan);
-    options_.say = std::move(cluster.say);
-    options_.warn = std::move(cluster.warn);
+    options_ = with_hosts_of(std::move(options_), std::move(cluster));
+    speak_for_run();
     connect();
 }
 

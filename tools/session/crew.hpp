@@ -27,6 +27,8 @@ public:
     /// `cluster` is what does not depend on where hosts come from. Starts what is to be started.
     /// `done`: the share of the picture that is there, for local workers that are to be lost in mid-run.
     Crew(const RunRequest& request, Cluster::Options cluster, std::function<double()> done);
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
 
     Cluster& cluster() { return *cluster_; }
     /// All hosts but `liars` take part in another run, `run`, with `network` for places of this process; the one so far
@@ -49,10 +51,12 @@ private:
     void start_slurm();
     void start_ssh();
     void connect();
+    void speak_for_run();
+
     const RunRequest* request_;
-    bool some_missing_ = false;  // hosts, when the last run was over: they may join in mid-run
-    bool ends_ = false;          // see end_soon()
-    std::function<void(const std::string&)> say_;
+    bool some_missing_ = false;                           // hosts, when the last run was over: they may join in mid-run
+    bool ends_ = false;                                   // see end_soon()
+    std::function<void(const std::string&)> say_, warn_;  // of the run; nobody listens when it is over
     std::function<double()> done_;
     std::optional<SpareCache> spare_cache_;  // outlives the workers
     std::optional<LocalWorkers> local_;

@@ -2,7 +2,6 @@
 
 #include <xmmintrin.h>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/odd_numbers.hpp"
 #include "core/base/unwanted.hpp"
 #include "core/base/words_of.hpp"
 #include "core/network/light/describe_question.hpp"
@@ -40,23 +40,6 @@ bool is_for(const Callee& node, const Query& question) {
     return is_sound(question) && (node.space || !question.is_in_space());
 }
 
-// The highest bit is set where it is infinite, or not a number: where no bit of its exponent is 0.
-std::uint32_t oddness(float number) {
-    constexpr std::uint32_t no_sign = 0x7fffffff, least_exponent = 0x00800000;
-    return (std::bit_cast<std::uint32_t>(number) & no_sign) + least_exponent;
-}
-
-// Most are sound, and about surfaces: that is seen without a branch for each number.
-bool all_plain(std::span<const Query> questions) {
-    std::uint32_t odd = 0;
-    bool any_in_space = false;
-    for (const Query& q : questions) {
-        odd |= oddness(q.outgoing.x) | oddness(q.outgoing.y) | oddness(q.outgoing.z) | oddness(q.u) | oddness(q.v);
-        any_in_space |= q.is_in_space();
-    }
-    return odd >> 31 == 0 && !any_in_space;
-}
-
 // Which question a node threw at: each is asked alone until it throws again. Empty: none is to blame.
 std::string culprit(const Callee& node, std::span<const Query> questions) {
     std::vector<Rgb> answer(node.layers);
@@ -75,8 +58,6 @@ std::string culprit(const Callee& node, std::span<const Query> questions) {
     return found;
 }
 
-// Here and below each colour is touched: see this room's CMakeLists.txt for how it is compiled.
-// DECISIONS: answers-pass-in-vectors
 void answer_all(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) {
     if (width == node.layers) {
         std::fill(answers.begin(), answers.end(), Rgb{});
@@ -130,15 +111,13 @@ Port::Ticket DirectPort::begin(std::span<const Query> questions, std::span<Rgb> 
 }
 
 void answer(const Callee& node, std::size_t width, std::span<const Query> questions, std::span<Rgb> answers) try {
-    if (all_plain(questions) ||
+    if (are_plain(questions) ||
         std::all_of(questions.begin(), questions.end(), [&](const Query& q) { return is_for(node, q); }))
         answer_all(node, width, questions, answers);
     else
         answer_some(node, width, questions, answers);
     check_float_mode();
-    if (node.not_finite)
-        *node.not_finite += static_cast<std::uint64_t>(
-            std::count_if(answers.begin(), answers.end(), [](const Rgb& colour) { return !finite(colour); }));
+    if (node.not_finite) *node.not_finite += not_finite_among(answers);
 } catch (const NodeError& error) {
     throw NodeError("'" + node.name + "'", error.what(), error.host());
 } catch (const std::exception& error) {
