@@ -112,7 +112,7 @@ struct RunRequest : RunSettings {
     std::shared_ptr<ReadScene> read;                // it, read already; the run takes it away. None: still to be read
     std::string output;                             // "x.exr", as seen from here
     std::optional<FrameOfSequence> frame;           // none: a still
-    double looks = 0.002;                           // part of its samples that are computed again, to tell what errs
+    std::optional<double> looks;  // part of its samples that are computed again, to tell what errs; none: a few
     /// Is told whenever the picture was written, which then happens from its first sample on; none: it is written once.
     /// Called by the run's thread.
     std::function<void(const PictureShown&)> shown;
