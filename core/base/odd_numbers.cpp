@@ -1,6 +1,5 @@
 #include "core/base/odd_numbers.hpp"
 
-#include <algorithm>
 #include <bit>
 
 namespace lightnet {
