@@ -9,6 +9,7 @@
 #include "core/network/graph/graph_film.hpp"
 #include "core/run/assembly/fingerprint.hpp"
 #include "core/run/assembly/job.hpp"
+#include "core/run/fiber/fiber.hpp"
 #include "core/run/master/master_renderer.hpp"
 #include "core/run/serial/serial.hpp"
 #include "lua/load_graph.hpp"
@@ -84,6 +85,17 @@ protected:
     std::shared_ptr<const Network> network_;
     std::vector<Tile> tiles_;
 };
+
+// Registers are wider on some processors, and so are the frames of what traces rays there.
+TEST_P(Deepest, GraphLeavesAThirdOfAFibersStack) {
+    Fibers fibers(usual_stack_size * 2 / 3);
+    bool ended = false;
+    fibers.start("the deepest graph", [&] {
+        serial();
+        ended = true;
+    });
+    EXPECT_TRUE(ended);
+}
 
 TEST_P(Deepest, GraphIsRenderedOnOneFiberWithTheSameBytes) {
     const auto pixels = serial();

@@ -14,9 +14,9 @@
 namespace lightnet {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr std::size_t usual_stack_size = 1024 * 1024;  // what a sanitizer puts around each variable takes room
+inline constexpr std::size_t usual_stack_size = 2048 * 1024;  // what a sanitizer puts around each variable takes room
 #else
-inline constexpr std::size_t usual_stack_size = 256 * 1024;
+inline constexpr std::size_t usual_stack_size = 512 * 1024;
 #endif
 
 class FiberWatcher;
