@@ -11,6 +11,7 @@
 #include "core/base/math/sampling.hpp"
 #include "core/base/math/sky_layout.hpp"
 #include "core/scene/bare_lights/environment.hpp"
+#include "core/scene/bare_lights/environment_map.hpp"
 #include "core/scene/direct_light.hpp"
 #include "core/scene/lamps/lights.hpp"
 #include "core/scene/scene.hpp"
@@ -102,6 +103,30 @@ TEST(Environment, ShowsItsPixelsWhereTheyBelong) {
     data.to_world = turned();
     const Vec3 ahead = transform_direction(turned(), {0, 0, -1});
     EXPECT_NEAR(Environment(data).radiance(ahead).r, upright.radiance({0, 0, -1}).r, 1e-4f);
+}
+
+TEST(EnvironmentMap, IsSharedByLightsOfAnyTurnAndScale) {
+    std::vector<Rgb> pixels(8 * 4, Rgb{1, 2, 3});
+    pixels[13] = {40, 50, 60};
+    EnvironmentData data;
+    data.image = std::make_shared<const Image>(8, 4, pixels);
+    const auto map = environment_map(data.image, data.layout);
+    const Environment plain(data);
+    data.radiance = {2, 2, 2};
+    const Environment bright(data);
+    data.to_world = turned();
+    const Environment aside(data);
+    EXPECT_EQ(environment_map(data.image, data.layout), map);
+    EXPECT_NE(environment_map(data.image, EnvironmentData::Layout::equal_area), map);
+    EXPECT_GE(map.use_count(), 4);  // nobody has one of his own
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        const Vec2 u = Samples(11, i).next_2d();
+        const SkyRadiance one = plain.sample(u), two = bright.sample(u), there = aside.sample(u);
+        EXPECT_EQ(one.pdf, two.pdf);
+        EXPECT_EQ(2 * one.radiance, two.radiance);
+        EXPECT_NEAR(length(transform_direction(turned(), one.direction) - there.direction), 0, 1e-5f);
+    }
+    EXPECT_EQ(2 * plain.total(), bright.total());
 }
 
 TEST(Shares, AreFoundByMarksAsWithoutThem) {

@@ -3,27 +3,22 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/base/math/frame.hpp"
 #include "core/base/math/rgb.hpp"
 #include "core/base/math/vec.hpp"
 #include "core/scene/bare_lights/environment_data.hpp"
+#include "core/scene/bare_lights/environment_map.hpp"
 #include "core/scene/bare_lights/light_sample.hpp"
-#include "core/scene/bare_lights/sky_cells.hpp"
 #include "core/scene/shapes/ray.hpp"
 
 namespace lightnet {
 
-/// One environment. Immutable; any thread may ask. A map is looked up bilinearly, and sampled cell by cell (a cell is a
-/// pixel), uniformly by solid angle within the cell: in proportion to the luminance by which the cell is brighter than
-/// the map on average. What is darker is left to directions from the BSDF, which find it as well: sampling both alike
-/// would waste one. Karlík et al. 2019, "MIS Compensation".
-// DECISIONS: bright-sky
+/// One environment: a map, or the same everywhere. Immutable; any thread may ask. A map is sampled cell by cell,
+/// uniformly by solid angle within the cell: see EnvironmentMap.
 class Environment {
 public:
     explicit Environment(const EnvironmentData& data);
@@ -36,7 +31,7 @@ public:
     const std::optional<Portal>& portal() const { return portal_; }
 
     /// Without a map it is the same everywhere, and sampled uniformly.
-    bool has_map() const { return image_ != nullptr; }
+    bool has_map() const { return map_ != nullptr; }
     /// Density with which sample() finds `direction`, per steradian.
     float pdf(Vec3 direction) const;
     /// radiance() and pdf().
@@ -56,44 +51,25 @@ public:
     /// Irradiance of its mean over all directions, were it all to arrive head-on: ∫ radiance dω, W·m⁻².
     Rgb total() const { return total_; }
     /// Bytes, without the image.
-    std::size_t memory() const { return cells_.memory(); }
+    std::size_t memory() const { return map_ ? map_->memory() : 0; }
 
 private:
     using Layout = EnvironmentData::Layout;
-    /// Four pixels, by the upper left one, and the place between their middles.
-    struct Spot;
     template <Layout layout>
     struct Placing;
     struct Places;
     struct Looking;
     struct Seeing;
-    Rgb pixel(std::int64_t x, std::int64_t y) const;
-    void weigh();
-    void list_rows();
-    double row_solid_angle(std::uint32_t y) const;
     template <class Use>
     auto placed(const Use& use) const;
-    Rgb radiance_at(const Spot& spot) const;
-    Rgb at_the_rim(const Spot& spot) const;
-    void expect(std::int64_t x, std::int64_t y) const;
+    Rgb radiance_at(const EnvironmentMap::Spot& spot) const;
     float pdf_at(Vec2 square) const;
-    Vec2 drops_of(std::uint32_t y) const;
 
     std::optional<Portal> portal_;
     Rgb scale_;
-    std::shared_ptr<const Image> image_;
-    const float* numbers_ = nullptr;  // the image's, where these are all usable, and three a pixel
-    EnvironmentData::Layout layout_;
-    Frame axes_;  // its own, in world space
-    std::uint32_t width_ = 0, height_ = 0;
-    SkyCells cells_;
-    std::vector<float> density_;  // by row: sr⁻¹ in a cell that has all light of its row
-    std::vector<float> drops_;    // by edge of a row of longitudes, from the upper pole: 1 - cos of the angle
+    std::shared_ptr<const EnvironmentMap> map_;  // null: none
+    Frame axes_;                                 // its own, in world space
     Rgb total_;
-    float bright_share_ = 0;  // of all light: what sample() goes by
 };
-
-/// Of that data; the one that another scene has, where it has one: what a map weighs is worked out once. Any thread.
-std::shared_ptr<const Environment> environment_of(const EnvironmentData& data);
 
 }  // namespace lightnet

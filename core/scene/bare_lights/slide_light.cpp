@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/math/sampling.hpp"
+#include "core/base/shared_work.hpp"
 
 namespace lightnet {
 namespace {
@@ -36,7 +37,12 @@ SlideLight::SlideLight(const SpotLight& spot)
       x_(column_of(slide_.to_world, 0)),
       y_(column_of(slide_.to_world, 1)),
       z_(column_of(slide_.to_world, 2)) {
-    if (slide_.image && !slide_.image->empty()) weigh();
+    if (!slide_.image || slide_.image->empty()) return;
+    using Picture = std::tuple<const Image*, float, float, bool, float, float, SpotLight::Falloff>;
+    static SharedWork<Picture, Weights> all;
+    weights_ = all.get({slide_.image.get(), slide_.half_width, slide_.half_height, slide_.even_on_planes, spot.inner,
+                        spot.outer, spot.falloff},
+                       [&] { return std::make_shared<const Weights>(weigh()); });
 }
 
 Vec3 SlideLight::local(Vec3 direction) const { return {dot(direction, x_), dot(direction, y_), dot(direction, z_)}; }
@@ -46,7 +52,7 @@ Vec2 SlideLight::plane_of(double column, double row) const {
             float((2 * row / slide_.image->height - 1) * slide_.half_height)};
 }
 
-Rgb SlideLight::at(Vec2 plane) const {
+Rgb SlideLight::passed(Vec2 plane) const {
     const Image& image = *slide_.image;
     const float u = 0.5f + plane.x / (2 * slide_.half_width), v = 0.5f + plane.y / (2 * slide_.half_height);
     if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) return {};
@@ -61,13 +67,13 @@ Rgb SlideLight::at(Vec2 plane) const {
     };
     const auto [left, right, dx] = along(u, image.width);
     const auto [above, below, dy] = along(v, image.height);
-    return spot_.intensity * image.square(left, right, above, below).bilinear(dx, dy) * strength;
+    return image.square(left, right, above, below).bilinear(dx, dy) * strength;
 }
 
 Rgb SlideLight::towards(Vec3 direction) const {
     const Vec3 d = local(direction);
-    if (!(d.z > 0) || rows_.empty()) return {};
-    return at({d.x / d.z, d.y / d.z});
+    if (!(d.z > 0) || !weights_ || weights_->rows.empty()) return {};
+    return spot_.intensity * passed({d.x / d.z, d.y / d.z});
 }
 
 std::optional<LightSample> SlideLight::from(Vec3 at) const {
@@ -77,7 +83,8 @@ std::optional<LightSample> SlideLight::from(Vec3 at) const {
 }
 
 /// Each pixel by how bright it and those around it are, as the slide is looked up bilinearly.
-void SlideLight::weigh() {
+SlideLight::Weights SlideLight::weigh() const {
+    Weights weights{slide_.image, {}, {}, {}};
     const Image& image = *slide_.image;
     const std::size_t wide = image.width, high = image.height;
     const double area = 4.0 * slide_.half_width * slide_.half_height / double(wide) / double(high);
@@ -88,13 +95,14 @@ void SlideLight::weigh() {
             const Vec2 plane = plane_of(double(x) + 0.5, double(y) + 0.5);
             const float cosine = cosine_at(plane);
             const double solid_angle = area * double{cosine} * double{cosine} * double{cosine};
-            const Rgb sent = at(plane);
+            const Rgb sent = passed(plane);
             red += sent.r * solid_angle, green += sent.g * solid_angle, blue += sent.b * solid_angle;
             const float evened = slide_.even_on_planes ? 1 : cosine * cosine * cosine;
             own[y * wide + x] = luminance(image.colour(std::uint32_t(x), std::uint32_t(y))) * evened;
         }
-    power_ = {float(red), float(green), float(blue)};
-    rows_.assign(high, 0), columns_.assign(wide * high, 0);
+    weights.power = {float(red), float(green), float(blue)};
+    auto &rows = weights.rows, &columns = weights.columns;
+    rows.assign(high, 0), columns.assign(wide * high, 0);
     double all = 0;
     for (std::size_t y = 0; y < high; ++y) {
         double row = 0;
@@ -102,39 +110,42 @@ void SlideLight::weigh() {
             for (std::size_t j = y > 0 ? y - 1 : 0; j < std::min(y + 2, high); ++j)
                 for (std::size_t i = x > 0 ? x - 1 : 0; i < std::min(x + 2, wide); ++i)
                     row += double(std::max(0.0f, own[j * wide + i])) / 9;
-            columns_[y * wide + x] = float(row);
+            columns[y * wide + x] = float(row);
         }
         if (row > 0)
-            for (std::size_t x = 0; x < wide; ++x) columns_[y * wide + x] /= float(row);
+            for (std::size_t x = 0; x < wide; ++x) columns[y * wide + x] /= float(row);
         all += row;
-        rows_[y] = float(all);
+        rows[y] = float(all);
     }
     if (all > 0)
-        for (float& row : rows_) row /= float(all);
+        for (float& row : rows) row /= float(all);
     else
-        rows_.clear();
+        rows.clear();
+    return weights;
 }
 
 Emission SlideLight::emission(Vec2 u) const {
-    if (rows_.empty()) return {position, z_, {}};
+    if (!weights_ || weights_->rows.empty()) return {position, z_, {}};
+    const auto& rows = weights_->rows;
     const std::size_t wide = slide_.image->width, high = slide_.image->height;
-    const auto [row, down] = piece_of(rows_.data(), high, u.y);
-    const float* columns = &columns_[row * wide];
+    const auto [row, down] = piece_of(rows.data(), high, u.y);
+    const float* columns = &weights_->columns[row * wide];
     const auto [column, right] = piece_of(columns, wide, u.x);
     const Vec2 plane = plane_of(double(column) + double{right}, double(row) + double{down});
     const float cosine = cosine_at(plane);
     const float chance =
-        (rows_[row] - (row > 0 ? rows_[row - 1] : 0)) * (columns[column] - (column > 0 ? columns[column - 1] : 0));
+        (rows[row] - (row > 0 ? rows[row - 1] : 0)) * (columns[column] - (column > 0 ? columns[column - 1] : 0));
     const float area = 4 * slide_.half_width * slide_.half_height / (float(wide) * float(high));
     const Vec3 direction = normalize(x_ * plane.x + y_ * plane.y + z_);
-    return {position, direction, chance > 0 ? at(plane) * (area * cosine * cosine * cosine / chance) : Rgb{}};
+    return {position, direction,
+            chance > 0 ? spot_.intensity * passed(plane) * (area * cosine * cosine * cosine / chance) : Rgb{}};
 }
 
 LightBounds SlideLight::bounds() const {
     const float corner = std::atan(std::hypot(slide_.half_width, slide_.half_height));
     const float widest = std::min(corner, std::max(spot_.inner, spot_.outer));
     const double solid_angle = 2 * std::numbers::pi * (1 - std::cos(double{widest}));
-    return {position, position, z_, std::cos(widest), std::cos(1e-3f), luminance(power_) / float(solid_angle), false};
+    return {position, position, z_, std::cos(widest), std::cos(1e-3f), luminance(power()) / float(solid_angle), false};
 }
 
 }  // namespace lightnet

@@ -1,6 +1,7 @@
 // A point that throws a picture, as a slide projector does.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,7 @@ public:
     /// Radiant intensity towards `direction` (unit, from the light), W·sr⁻¹.
     Rgb towards(Vec3 direction) const;
     /// All that it emits, W.
-    const Rgb& power() const { return power_; }
+    Rgb power() const { return weights_ ? spot_.intensity * weights_->power : Rgb{}; }
     /// See IsNearLight.
     std::optional<LightSample> from(Vec3 at) const;
     LightBounds bounds() const;
@@ -32,18 +33,23 @@ public:
     LampLabel label;
 
 private:
-    /// A place on the plane at distance 1 (x and y), in the slide's own axes.
-    Rgb at(Vec2 plane) const;
+    /// What all spots share that throw the same picture the same way, however bright and wherever they stand.
+    struct Weights {
+        std::shared_ptr<const Image> image;
+        std::vector<float> rows;     // share of all light up to and with each row of pixels
+        std::vector<float> columns;  // by row: share of the row's light up to and with each
+        Rgb power;                   // W, of an intensity of 1
+    };
+    /// What passes of an intensity of 1 at a place on the plane at distance 1 (x and y), in the slide's own axes.
+    Rgb passed(Vec2 plane) const;
     Vec2 plane_of(double column, double row) const;
     Vec3 local(Vec3 direction) const;
-    void weigh();
+    Weights weigh() const;
 
     SpotLight spot_;
     Slide slide_;
-    Vec3 x_, y_, z_;              // the slide's axes in world space
-    std::vector<float> rows_;     // share of all light up to and with each row of pixels
-    std::vector<float> columns_;  // by row: share of the row's light up to and with each
-    Rgb power_;
+    Vec3 x_, y_, z_;                          // the slide's axes in world space
+    std::shared_ptr<const Weights> weights_;  // null: no picture
 };
 
 }  // namespace lightnet

@@ -16,7 +16,7 @@ float within(float choice, float start, float share) {
 Skies::Skies(const SceneData& data, std::uint32_t group) : group_(group) {
     std::vector<double> light_of_maps;
     for (const auto& each : data.environments) {
-        const Environment& environment = *environments_.emplace_back(environment_of(each));
+        const Environment& environment = environments_.emplace_back(each);
         shine_ |= !is_black(environment.total());
         has_portals_ |= environment.portal().has_value();
         const bool everywhere = !environment.has_map() && !environment.portal();
@@ -35,13 +35,13 @@ LightSample Skies::sampled_as(const SkyRadiance& seen) const {
 std::optional<LightSample> Skies::sample(Vec3 from, float choice, Vec2 u) const {
     if (has_portals_) return through_portals(from, choice, u);
     const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
-    const SkyRadiance seen = environments_[maps_[map_index]]->sample(u);
+    const SkyRadiance seen = environments_[maps_[map_index]].sample(u);
     if (maps_.size() == 1) return sampled_as(seen);
     float density = share_of(map_ends_, map_index) * seen.pdf;
     Rgb radiance = constant_ + seen.radiance;
     for (std::size_t i = 0; i < maps_.size(); ++i) {
         if (i == map_index) continue;
-        const SkyRadiance other = environments_[maps_[i]]->look(seen.direction);
+        const SkyRadiance other = environments_[maps_[i]].look(seen.direction);
         density += share_of(map_ends_, i) * other.pdf;
         radiance += other.radiance;
     }
@@ -52,7 +52,7 @@ std::optional<LightSample> Skies::sample(Vec3 from, float choice, Vec2 u) const 
 // DECISIONS: portals-are-all-there-is
 std::optional<LightSample> Skies::through_portals(Vec3 from, float choice, Vec2 u) const {
     const std::size_t map_index = maps_.size() > 1 ? pick(map_ends_, choice) : 0;
-    const Environment& sky = *environments_[maps_[map_index]];
+    const Environment& sky = environments_[maps_[map_index]];
     const auto& portal = sky.portal();
     // not by `choice`, which is none where there is nothing else to choose from
     const bool half = portal && sky.has_map(), first_half = u.x < 0.5f, to_portal = portal && (!half || first_half);
@@ -66,11 +66,11 @@ std::optional<LightSample> Skies::through_portals(Vec3 from, float choice, Vec2 
 }
 
 void Skies::sample(std::span<const Vec2> u, std::span<SkyRadiance> seen) const {
-    environments_[maps_[0]]->sample(u, seen);
+    environments_[maps_[0]].sample(u, seen);
 }
 
 float Skies::density_of(std::size_t map, const Ray& ray) const {
-    const Environment& sky = *environments_[maps_[map]];
+    const Environment& sky = environments_[maps_[map]];
     if (!sky.portal()) return sky.pdf(ray.direction);
     const float through = sky.portal()->density(ray.origin, ray.direction);
     return sky.has_map() ? 0.5f * (through + sky.pdf(ray.direction)) : through;
@@ -85,7 +85,7 @@ float Skies::pdf(const Ray& ray) const {
 Rgb Skies::radiance(const Ray& ray) const {
     Rgb sum = constant_;
     for (const auto map : maps_)
-        if (environments_[map]->shows(ray)) sum += environments_[map]->radiance(ray.direction);
+        if (environments_[map].shows(ray)) sum += environments_[map].radiance(ray.direction);
     return sum;
 }
 
@@ -93,7 +93,7 @@ void Skies::look(std::span<const Ray> rays, std::span<SkyRadiance> seen) const {
     if (one_map()) {
         std::array<Vec3, lanes> directions;
         for (std::size_t i = 0; i < rays.size(); ++i) directions[i] = rays[i].direction;
-        environments_[maps_[0]]->look(std::span(directions).first(rays.size()), seen);
+        environments_[maps_[0]].look(std::span(directions).first(rays.size()), seen);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             seen[i].radiance = constant_ + seen[i].radiance;
             seen[i].pdf = share_of(map_ends_, 0) * seen[i].pdf;
@@ -104,7 +104,7 @@ void Skies::look(std::span<const Ray> rays, std::span<SkyRadiance> seen) const {
 }
 
 Rgb Skies::power(std::size_t sky, const BallAround& around) const {
-    const auto& environment = *environments_[sky];
+    const auto& environment = environments_[sky];
     const auto& portal = environment.portal();
     return environment.total() *
            (portal ? length(cross(portal->side, portal->other)) : pi * around.radius * around.radius);
@@ -132,7 +132,7 @@ Emission through_ball(const BallAround& around, Vec3 direction, Rgb irradiance, 
 }
 
 Emission Skies::emit(std::size_t sky, const BallAround& around, Vec2 position_sample, Vec2 direction_sample) const {
-    const auto& environment = *environments_[sky];
+    const auto& environment = environments_[sky];
     const auto [towards, radiance, density] = environment.sample_all(direction_sample);
     const Rgb irradiance = density > 0 ? radiance / density : Rgb{};
     const auto& portal = environment.portal();
@@ -142,7 +142,7 @@ Emission Skies::emit(std::size_t sky, const BallAround& around, Vec2 position_sa
 
 std::size_t Skies::memory() const {
     std::size_t bytes = 0;
-    for (const auto& environment : environments_) bytes += environment->memory();
+    for (const auto& environment : environments_) bytes += environment.memory();
     return bytes;
 }
 

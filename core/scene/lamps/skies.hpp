@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -62,7 +61,7 @@ private:
     std::optional<LightSample> through_portals(Vec3 from, float choice, Vec2 u) const;
     float density_of(std::size_t map, const Ray& ray) const;
 
-    std::vector<std::shared_ptr<const Environment>> environments_;
+    std::vector<Environment> environments_;
     std::vector<std::uint32_t> maps_;  // into environments_: those that are sampled, as they have a map or a portal
     std::vector<float> map_ends_;      // share of the light of maps up to and with each
     Rgb constant_;                     // sum of environments without a map or a portal
