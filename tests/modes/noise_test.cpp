@@ -70,11 +70,30 @@ TEST_F(Noise, IsAsMuchAsTwoPicturesDiffer) {
     EXPECT_LT(told, between * 2);
 }
 
-TEST_F(Noise, IsToldAlikeWhateverThreadsThereAre) {
-    const auto noise = [&](const char* threads) {
-        return Tree::parse(launched("cornell_box.pbrt", {"--threads", threads}).report).at("noise");
+TEST_F(Noise, IsToldAlikeWhereverThePictureIsMade) {
+    const auto noise = [&](const Words& mode) {
+        return Tree::parse(launched("cornell_box.pbrt", mode).report).at("noise");
     };
-    EXPECT_EQ(noise("1"), noise("2"));
+    const Tree serial = noise({"--threads", "1"});
+    EXPECT_EQ(noise({"--threads", "3"}), serial);
+    EXPECT_EQ(noise({"--local-workers", "2"}), serial);
+    const Daemon daemon(folder, 2);
+    EXPECT_EQ(noise({"--hosts", folder.write("hosts.lua", "place '" + daemon.endpoint + "' {}\n")}), serial);
+}
+
+TEST_F(Noise, IsToldByTheWordsOfARunOnHosts) {
+    EXPECT_THAT(launched("glass_ball.pbrt", {"--local-workers", "2"}).said,
+                HasSubstr("graphs/progressive.lua covers these better"));
+}
+
+// Its launcher would have to build the scene for 64 samples.
+TEST_F(Noise, OfASmallPictureByHostsIsNotWorthTheTreesOfItsScene) {
+    const auto is_told = [&](const char* mode) {
+        return Tree::parse(launched("cornell_box.pbrt", {"--samples", "4", "--size", "4x4", mode, "1"}).report)
+            .contains("noise");
+    };
+    EXPECT_TRUE(is_told("--threads"));
+    EXPECT_FALSE(is_told("--local-workers"));
 }
 
 TEST_F(Noise, IsInTheReportAsTheSchemaSays) {

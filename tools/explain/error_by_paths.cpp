@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <future>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "core/base/spare_threads.hpp"
 #include "core/film/fireflies.hpp"
 #include "core/run/serial/serial.hpp"
 
@@ -27,9 +30,9 @@ struct Unit {
 /// Samples of single pixels, taken apart.
 class Prism {
 public:
-    Prism(const PixelRecount::Source& source, ResultCache* cache, const std::function<void()>& pause)
-        : source_(source), run_(*source.network, pause) {
-        run_.prepare(source.made_from, cache);
+    Prism(const PixelRecount::Source& source, const Lookers& lookers)
+        : source_(source), run_(*source.network, lookers.pause) {
+        run_.prepare(source.made_from, lookers.cache);
         for (const auto& layer : source.format.layers) layers_.push_back(layer_of(layer));
     }
 
@@ -134,10 +137,55 @@ std::vector<const PictureLayer*> layers_of_things(const Picture& picture) {
     return layers;
 }
 
+/// A pixel that is looked at, and for how much it counts.
+struct Look {
+    std::size_t pixel = 0;
+    std::uint32_t samples = 0;
+    double weight = 0;
+    Spread found{};
+};
+
+void look(Look& at, const Picture& picture, Prism& prism) {
+    const auto units = std::min(most_units, at.samples);
+    std::vector<Unit> found;
+    const auto x = picture.x + std::uint32_t(at.pixel % picture.width);
+    const auto y = picture.y + std::uint32_t(at.pixel / picture.width);
+    for (std::uint32_t u = 0; u < units; ++u) {
+        const auto first = u * at.samples / units, last = (u + 1) * at.samples / units;
+        found.push_back(prism.unit(x, y, first, last - first));
+    }
+    at.found = spread_of(found);
+}
+
+// Threads take one after the other; what they find is added up in the order of the pixels.
+void look_at_pixels(std::vector<Look>& looks, const Picture& picture, const PixelRecount::Source& source,
+                    const Lookers& lookers) {
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        Prism prism(source, lookers);
+        for (std::size_t i = next++; i < looks.size(); i = next++) look(looks[i], picture, prism);
+    };
+    std::vector<std::future<void>> others;
+    for (std::size_t i = 1; i < std::min<std::size_t>(lookers.threads, looks.size()); ++i)
+        others.push_back(in_background(work));
+    const auto all_ended = [&] {
+        for (auto& other : others) other.wait();
+    };
+    try {
+        work();
+    } catch (...) {
+        next = looks.size();
+        all_ended();
+        throw;
+    }
+    all_ended();
+    for (auto& other : others) other.get();
+}
+
 }  // namespace
 
-std::optional<ErrorByPaths> error_by_paths(const Picture& picture, const PixelRecount::Source& source,
-                                           ResultCache* cache, double part, const std::function<void()>& pause) {
+std::optional<ErrorByPaths> error_by_paths(const Picture& picture, const PixelRecount::Source& source, double part,
+                                           const Lookers& lookers) {
     const auto pixels = std::size_t{picture.width} * picture.height;
     const auto samples_at = [&](std::size_t i) {
         return picture.samples.empty() ? source.format.samples : std::uint32_t(picture.samples[i]);
@@ -145,30 +193,27 @@ std::optional<ErrorByPaths> error_by_paths(const Picture& picture, const PixelRe
     if (pixels == 0 || source.network->has_passes() || picture.layers.size() != source.format.layers.size())
         return std::nullopt;
     const auto beside = beside_neighbours(picture, layers_of_things(picture));
-    const double looks = part * double(pixels) * source.format.samples / std::min(source.format.samples, most_of_pixel);
+    const double wanted =
+        part * double(pixels) * source.format.samples / std::min(source.format.samples, most_of_pixel);
     const Chances chances(beside.off);
-    Prism prism(source, cache, pause);
-    ErrorByPaths found;
-    const auto count = std::size_t(std::max(least_looks, looks));
+    const auto count = std::size_t(std::max(least_looks, wanted));
+    std::vector<Look> looks;
     chances.choose(count, [&](std::size_t pixel, std::size_t looks_there) {
-        const auto samples = std::min(most_of_pixel, samples_at(pixel)), units = std::min(most_units, samples);
-        if (units < 2) return;
-        std::vector<Unit> found_there;
-        const auto x = picture.x + std::uint32_t(pixel % picture.width);
-        const auto y = picture.y + std::uint32_t(pixel / picture.width);
-        for (std::uint32_t u = 0; u < units; ++u) {
-            const auto first = u * samples / units, last = (u + 1) * samples / units;
-            found_there.push_back(prism.unit(x, y, first, last - first));
-        }
-        const Spread spread = spread_of(found_there);
+        const auto samples = std::min(most_of_pixel, samples_at(pixel));
+        if (samples < 2) return;
         const double weight = double(looks_there) / double(count) /
                               (chances.of(pixel) * double(pixels) * beside.squares[pixel]) * samples /
                               samples_at(pixel);
-        if (!std::isfinite(spread.all * weight)) return;
+        looks.push_back({pixel, samples, weight});
+    });
+    look_at_pixels(looks, picture, source, lookers);
+    ErrorByPaths found;
+    for (const auto& [pixel, samples, weight, spread] : looks) {
+        if (!std::isfinite(spread.all * weight)) continue;
         found.error += weight * spread.all;
         for (std::size_t k = 0; k < path_kinds; ++k) found.shares[k] += weight * spread.kinds[k];
         ++found.pixels;
-    });
+    }
     if (!(found.error > 0)) return std::nullopt;
     for (double& share : found.shares) share /= found.error;
     return found;

@@ -6,10 +6,7 @@
 #include <vector>
 
 #include "core/film/fireflies.hpp"
-#include "core/network/graph/layout.hpp"
-#include "core/network/graph/single_lights.hpp"
-#include "tools/explain/error_by_paths.hpp"
-#include "tools/session/rendering.hpp"
+#include "core/scene/path_kinds.hpp"
 
 namespace lightnet {
 namespace {
@@ -39,12 +36,6 @@ bool is_any(const RunReport& report, std::string_view kind) {
                        [&](const NodeReport& node) { return node.kind.find(kind) != std::string::npos; });
 }
 
-// One thread looks again, while all others wait for it.
-double part_of_looks(const RunRequest& request) {
-    constexpr double of_two_threads = 0.002;
-    return request.looks.value_or(2 * of_two_threads / std::max(2u, request.threads));
-}
-
 Culprit culprit_of(const RunReport& report, std::string_view what) {
     if (!report.noise) return {};
     const auto part = [&](PathKind kind) {
@@ -71,23 +62,6 @@ Culprit culprit_of(const RunReport& report, std::string_view what) {
 }
 
 }  // namespace
-
-void note_noise(RunRecorder& book, const Assignment& what) {
-    const Network& network = *what.network;
-    const bool prepares =
-        !preparing_nodes(network.graph, network.registry).empty() || !shards_in(network.graph).empty();
-    if (prepares || leaves_out(network.graph) || what.look_alone || what.request.shown ||
-        part_of_looks(what.request) <= 0)
-        return;
-    if (!book.steps().finished() || !book.steps().picture().complete()) return;
-    const PixelRecount::Source source{what.network, what.format, what.made_from, book.files().scale()};
-    const auto found = error_by_paths(book.files().now(), source, nullptr, part_of_looks(what.request), [] {});
-    if (!found) return;
-    NoiseReport noise{found->error, found->pixels, {}};
-    for (std::size_t kind = 0; kind < path_kinds; ++kind)
-        noise.paths.emplace_back(word_of(static_cast<PathKind>(kind)), found->shares[kind]);
-    book.account().report().noise = std::move(noise);
-}
 
 std::string firefly_words(const Picture& picture, const RunReport& report, const std::string& exr) {
     const auto found = fireflies_in(picture, layers_of_surfaces(picture));

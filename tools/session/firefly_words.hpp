@@ -8,14 +8,6 @@
 
 namespace lightnet {
 
-class RunRecorder;
-struct Assignment;
-
-/// Computes some pixels of a finished picture again, and writes into the report what makes its error; nothing where
-/// nodes prepare, or there is nothing to tell (see error_by_paths()). Whoever waits for each picture is not kept
-/// waiting.
-void note_noise(RunRecorder& book, const Assignment& what);
-
 /// "": there are no fireflies, and no graph is known that covers better what makes the error. `exr`: file of the
 /// picture; `report`: what is known of the noise, and the nodes of the graph, which tell what covers its paths already.
 std::string firefly_words(const Picture& picture, const RunReport& report, const std::string& exr);

@@ -19,7 +19,6 @@
 #include "core/run/master/master_renderer.hpp"
 #include "core/run/schedule/spot_checks.hpp"
 #include "core/run/serial/serial.hpp"
-#include "tools/session/firefly_words.hpp"
 #include "tools/session/slices.hpp"
 #include "transport/launcher/threaded_run.hpp"
 #include "transport/store/cache_folder.hpp"
@@ -91,7 +90,7 @@ void Rendering::perform(LoadedScene scene, const DiskFiles& files) {
     if (mode == Mode::serial) serially(std::move(scene));
     if (mode == Mode::threads) in_threads(std::move(scene));
     if (mode == Mode::network) on_hosts(std::move(scene), files);
-    if (what_.network && !ended()) note_noise(book_, what_);
+    if (!ended()) note_noise(book_, what_);
 }
 
 std::shared_ptr<const Network> Rendering::network_of(LoadedScene scene) {
@@ -300,8 +299,8 @@ void Rendering::on_hosts(LoadedScene scene, const DiskFiles& files) {
     options.liars = liars_;
     if (what_.request.threads)
         options.network = network_of(std::move(scene));
-    else if (what_.handover)
-        what_.handover->hold(std::move(scene.data));
+    else
+        what_.beside = network_beside(what_, std::move(scene));
     std::optional<Crew> own;
     auto& crew = what_.handover ? what_.handover->crew() : own;
     const auto done = [this] { return book_.share_done(); };

@@ -25,6 +25,7 @@
 #include "tools/session/handover.hpp"
 #include "tools/session/kept_files.hpp"
 #include "tools/session/moves.hpp"
+#include "tools/session/noise_of_run.hpp"
 #include "tools/session/run_recorder.hpp"
 #include "tools/support/signals.hpp"
 #include "transport/launcher/cluster.hpp"
@@ -43,6 +44,7 @@ struct Assignment {
     Handover* handover = nullptr;              // between the runs of a sequence; null: this one is alone
     bool look_alone = false;                   // no more than the coarse look
     std::shared_ptr<const Network> network{};  // with which places of this process render; null: none do, or not yet
+    std::shared_ptr<NetworkBeside> beside{};   // where others render: to look again; null: nobody does
 
     bool wants(const std::vector<Tile>& tiles) const { return !tiles.empty() && (tiles.front().coarse || !look_alone); }
 };
