@@ -92,9 +92,9 @@ struct Scene::Built {
     /// `last`: another scene, or null. Where its shapes are these, its trees serve this one as well.
     Built(SceneData given, const SceneOptions& options, std::shared_ptr<const Built> last)
         : data(checked(std::move(given))),
-          shading(data),
           isa(options.isa),
           like(with_same_trees(std::move(last))),
+          shading(data, like ? &like->shading : nullptr),
           media(data, options.isa, options.build_threads) {
         if (like)
             pad_positions(data);
@@ -118,9 +118,9 @@ struct Scene::Built {
     const Geometry& geometry() const { return like ? *like->own : *own; }
 
     SceneData data;
-    Shading shading;
     std::string isa;
     std::shared_ptr<const Built> like;  // whose trees these are; null: it has its own
+    Shading shading;
     std::optional<Geometry> own;
     Media media;
     Box box;

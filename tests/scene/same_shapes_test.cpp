@@ -45,14 +45,22 @@ TEST(SameShapes, AreFoundByTheTreesOfASceneThatIsGone) {
     auto before = std::make_unique<const Scene>(room(0.5f));
     const auto expected = before->intersect(down);
     const Scene now(room(0.7f)), later(room(0.9f)), taller(room(0.5f, 2));
-    before.reset();
     ASSERT_TRUE(expected);
+    const float before_offset = before->surface(*expected).offset;
+    EXPECT_GT(before_offset, 0);
+    auto wide = room(0.5f);
+    for (Vec3& corner : std::get<Mesh>(wide.shapes[1].geometry).positions)
+        corner = corner + (corner - Vec3{0, 0, 1}) * 9;
+    const Scene wider(wide);
+    EXPECT_GT(wider.surface(*wider.intersect(down)).offset, before_offset) << "nothing of other shapes is taken";
+    before.reset();
     for (const Scene* scene : {&now, &later}) {
         const auto hit = scene->intersect(down);
         ASSERT_TRUE(hit);
         EXPECT_EQ(hit->geometry, expected->geometry);
         EXPECT_EQ(hit->distance, expected->distance);
         EXPECT_EQ(scene->surface(*hit).position.z, 1);
+        EXPECT_EQ(scene->surface(*hit).offset, before_offset);
     }
     EXPECT_NE(now.bsdf(now.surface(*now.intersect(down))).lobes(), 0);
     EXPECT_FLOAT_EQ(taller.intersect(down)->distance, 3);

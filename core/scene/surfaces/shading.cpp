@@ -131,14 +131,15 @@ BetweenVertices between_vertices(const Mesh& mesh, std::uint32_t triangle, float
     return {&mesh.values, mesh.triangles[triangle], u, v};
 }
 
-Shading::Shading(const SceneData& data) : data_(data), materials_(data) {
+Shading::Shading(const SceneData& data, const Shading* before) : data_(data), materials_(data) {
     for (const auto& instance : data.instances) placements_.emplace_back(instance.to_world);
     placed_.reserve(data.shapes.size());
     for (const auto& shape : data.shapes) {
         placed_.push_back(lightnet::placed(shape.geometry));
-        needs_.push_back({materials_.needs(shape.material), least_offset(placed_.back()),
+        const Needs* known = before ? &before->needs_[needs_.size()] : nullptr;
+        needs_.push_back({materials_.needs(shape.material), known ? known->offset : least_offset(placed_.back()),
                           std::get_if<Mesh>(&shape.geometry), materials_.lobes(shape.material)});
-        needs_.back().turned = turned_offsets(shape, needs_.back().offset);
+        needs_.back().turned = known ? known->turned : turned_offsets(shape, needs_.back().offset);
         needs_.back().material.texture |= shape.emission && shape.emission->texture;
         const auto by_place = [&](const std::optional<TextureId>& texture) {
             return texture && depends_on_place(data.textures, *texture);

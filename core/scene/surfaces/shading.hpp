@@ -22,8 +22,9 @@ namespace lightnet {
 /// The surfaces of a scene. Any thread may ask.
 class Shading {
 public:
-    /// Keeps looking at `data`. Throws Error as Materials does.
-    explicit Shading(const SceneData& data);
+    /// Keeps looking at `data`. `before`: of a scene whose shapes are the same (see have_same_shapes()), from which
+    /// what hangs on shapes alone is taken; null: there is none. Throws Error as Materials does.
+    explicit Shading(const SceneData& data, const Shading* before = nullptr);
 
     /// The point with these coordinates (see Query) on a primitive of a shape, as the shape was made.
     SurfacePoint point(std::uint32_t geometry, std::uint32_t primitive, float u, float v, ShutterTime time = 0) const {
