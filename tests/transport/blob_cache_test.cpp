@@ -24,10 +24,9 @@ protected:
     }
     // As it comes over the wire: in pieces.
     static void keep(const BlobCache& cache, const std::vector<std::byte>& blob) {
-        auto incoming = cache.receive(content_hash(blob));
+        auto incoming = cache.receive(content_hash(blob), blob.size());
         for (std::size_t at = 0; at < blob.size(); at += 3)
-            incoming.add(std::span(blob).subspan(at, std::min<std::size_t>(3, blob.size() - at)));
-        incoming.finish();
+            incoming.take(at, std::span(blob).subspan(at, std::min<std::size_t>(3, blob.size() - at)));
     }
     static bool holds_nothing(const fs::path& folder) {
         const fs::directory_iterator files(folder);
@@ -40,12 +39,9 @@ protected:
 
 TEST_F(BlobCacheTest, RefusesWhatIsNotWhatItsNameSaysAndLeavesNothing) {
     const BlobCache cache(folder);
-    {
-        auto incoming = cache.receive(content_hash(bytes("a mesh")));
-        incoming.add(bytes("a mash"));
-        EXPECT_THROW(incoming.finish(), Error);
-    }
-    cache.receive(content_hash(bytes("half"))).add(bytes("ha"));
+    EXPECT_THROW(cache.receive(content_hash(bytes("a mesh")), 6).take(0, bytes("a mash")), Error);
+    EXPECT_THROW(cache.receive(content_hash(bytes("a mesh")), 6).take(0, bytes("a mesh!")), Error) << "too long";
+    EXPECT_FALSE(cache.receive(content_hash(bytes("half")), 4).take(0, bytes("ha")));
     EXPECT_TRUE(holds_nothing(folder));
 }
 
@@ -97,11 +93,10 @@ TEST_F(BlobCacheTest, StoresAWholeBlobAtOnce) {
 TEST_F(BlobCacheTest, TakesABlobFromItsBeginningAgainBeforeTheFirstAttemptIsGivenUp) {
     const BlobCache cache(folder);
     const auto blob = bytes("a large result");
-    std::optional<BlobCache::Incoming> incoming(cache.receive(content_hash(blob)));
-    incoming->add(bytes("a lar"));
-    incoming.emplace(cache.receive(content_hash(blob)));
-    incoming->add(blob);
-    incoming->finish();
+    std::optional<BlobCache::Incoming> incoming(cache.receive(content_hash(blob), blob.size()));
+    incoming->take(0, bytes("a lar"));
+    incoming.emplace(cache.receive(content_hash(blob), blob.size()));
+    EXPECT_TRUE(incoming->take(0, blob));
     incoming.reset();
     EXPECT_EQ(*cache.read(content_hash(blob)), blob);
 }

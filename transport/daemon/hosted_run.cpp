@@ -89,13 +89,9 @@ bool HostedRun::take_blob(const packet::Piece& piece) {
     if (!missing_.contains(hash)) return true;
     auto found = incoming_.find(hash);
     // a second one for the same file would take its first pieces away
-    if (found == incoming_.end()) found = incoming_.emplace(hash, cache_.receive(hash)).first;
+    if (found == incoming_.end()) found = incoming_.emplace(hash, cache_.receive(hash, sizes_.at(hash))).first;
     auto& blob = found->second;
-    if (offset != blob.size()) return offset < blob.size();  // pieces come in order; some may come again
-    if (bytes.size() > sizes_.at(hash) - offset) throw Error("a file of the scene is longer than it was said to be");
-    blob.add(bytes);
-    if (blob.size() < sizes_.at(hash)) return true;
-    blob.finish();
+    if (!blob.take(offset, bytes)) return offset <= blob.here();  // else one before it is missing
     incoming_.erase(hash);
     missing_.erase(hash);
     return true;

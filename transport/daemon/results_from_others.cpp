@@ -12,7 +12,6 @@ constexpr auto patience_for_pieces = std::chrono::seconds(2);  // with a host th
 // A host is far too slow if after so long it would need so much longer.
 constexpr auto fair_try = std::chrono::seconds(3);
 constexpr double most_seconds_left = 15;
-constexpr std::uint64_t believed = std::uint64_t{64} << 20;  // room is taken for so much before it is there
 
 }  // namespace
 
@@ -48,16 +47,14 @@ void ResultsFromOthers::go_on(Time now, const Send& send) {
 // False: it can't be reached.
 bool ResultsFromOthers::ask(Wanted& wanted, Holder& holder, Time now, const Send& send) const {
     if (wanted.asked == 0) {
-        wanted.bytes = std::make_shared<std::vector<std::byte>>();
-        wanted.bytes->reserve(std::min(wanted.size, believed));
-        wanted.hasher.emplace();
+        wanted.arriving.emplace(wanted.hash, wanted.size);
         wanted.begun = wanted.heard = now;
     }
     while (wanted.asked < wanted.size) {
         const auto size = std::min<std::uint64_t>(holder.pace.piece(), wanted.size - wanted.asked);
         if (!holder.pace.may_send(size)) return true;
         if (!send({wanted.holders.front(), wanted.hash, wanted.asked, size})) return false;
-        if (wanted.asked == wanted.bytes->size()) wanted.heard = now;
+        if (wanted.asked == wanted.arriving->here()) wanted.heard = now;
         holder.pace.sent_piece(size, now);
         wanted.asked += size;
     }
@@ -69,7 +66,7 @@ std::string ResultsFromOthers::too_slow(const Wanted& wanted, Time now) const {
     if (now - wanted.heard > patience_for_pieces) return "it does not answer";
     const std::chrono::duration<double> since = now - wanted.begun;
     if (since < fair_try) return {};
-    const auto came = static_cast<double>(wanted.bytes->size());
+    const auto came = static_cast<double>(wanted.arriving->here());
     const double left = static_cast<double>(wanted.size) - came;
     return left * since.count() > most_seconds_left * came ? "it is too slow" : "";
 }
@@ -80,7 +77,7 @@ void ResultsFromOthers::ask_next(Wanted& wanted) {
     do {
         wanted.holders.pop_front();
     } while (!wanted.holders.empty() && holders_.at(wanted.holders.front()).left);
-    wanted.bytes.reset(), wanted.hasher.reset(), wanted.asked = 0;
+    wanted.arriving.reset(), wanted.asked = 0;
     if (wanted.holders.empty()) outcomes_.push_back({wanted.hash, nullptr});
 }
 
@@ -98,20 +95,19 @@ ResultsFromOthers::Place ResultsFromOthers::find(const std::string& from, const 
 
 void ResultsFromOthers::take(const std::string& from, const packet::Piece& piece, Time now) {
     const auto found = find(from, piece.hash);
-    if (found == wanted_.end() || piece.offset != found->bytes->size() || piece.bytes.empty()) return;
+    if (found == wanted_.end() || piece.offset != found->arriving->here() || piece.bytes.empty()) return;
     auto& wanted = *found;
     if (piece.bytes.size() > wanted.asked - piece.offset) {
         leave(wanted, "it gave more than it was asked for");
     } else {
         holders_.at(from).pace.piece_taken(now);
         wanted.heard = now;
-        wanted.bytes->insert(wanted.bytes->end(), piece.bytes.begin(), piece.bytes.end());
-        wanted.hasher->add(piece.bytes);
-        if (wanted.bytes->size() < wanted.size) return;
-        if (wanted.hasher->finish() != wanted.hash) {
+        const auto arrival = wanted.arriving->take(piece.offset, piece.bytes);
+        if (arrival == Arrival::under_way) return;
+        if (arrival != Arrival::whole) {
             leave(wanted, "what it gave is not what its hash says");
         } else {
-            outcomes_.push_back({wanted.hash, std::move(wanted.bytes)});
+            outcomes_.push_back({wanted.hash, wanted.arriving->bytes()});
             wanted.holders.clear();
         }
     }

@@ -7,7 +7,6 @@
 #include <functional>
 #include <list>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +14,7 @@
 
 #include "core/base/bytes.hpp"
 #include "core/base/hash.hpp"
+#include "transport/store/arriving_bytes.hpp"
 #include "transport/wire/line_pace.hpp"
 #include "transport/wire/packet.hpp"
 
@@ -62,10 +62,9 @@ private:
     struct Wanted {
         Hash hash;
         std::uint64_t size;
-        std::deque<std::string> holders;  // the first is asked
-        std::shared_ptr<std::vector<std::byte>> bytes{};
-        std::optional<Hasher> hasher{};
-        std::uint64_t asked = 0;  // bytes, from the beginning
+        std::deque<std::string> holders;           // the first is asked
+        std::optional<ArrivingResult> arriving{};  // since it was asked for
+        std::uint64_t asked = 0;                   // bytes, from the beginning
         Time begun{}, heard{};
     };
     struct Holder {

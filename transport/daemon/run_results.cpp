@@ -12,10 +12,9 @@ namespace {
 using packet::Fields;
 using packet::Type;
 
-constexpr std::uint64_t believed_size = std::uint64_t{64} << 20;  // room is taken for so much before it is there
-constexpr std::uint64_t most_given_at_once = 256 << 10;           // bytes
-constexpr std::size_t most_held_for_others = 2;                   // results
-constexpr std::size_t most_wishes = 1024;                         // for one that is still being read
+constexpr std::uint64_t most_given_at_once = 256 << 10;  // bytes
+constexpr std::size_t most_held_for_others = 2;          // results
+constexpr std::size_t most_wishes = 1024;                // for one that is still being read
 constexpr auto held_for_others = std::chrono::seconds(5);
 
 bool is_ready(const std::future<Bytes>& future) {
@@ -64,18 +63,12 @@ bool RunResults::take(const packet::Piece& piece) {
     const auto expected = expected_.find(piece.hash);
     if (expected == expected_.end()) return false;
     auto& result = expected->second;
-    if (piece.offset == 0) {  // from the beginning, perhaps again
-        result.bytes = std::make_shared<std::vector<std::byte>>();
-        result.bytes->reserve(std::min(result.size, believed_size));
-        result.hasher.emplace();
-    }
-    if (!result.bytes || piece.offset != result.bytes->size()) return true;
-    if (piece.bytes.size() > result.size - piece.offset) throw Error("a result is longer than it was said to be");
-    result.bytes->insert(result.bytes->end(), piece.bytes.begin(), piece.bytes.end());
-    result.hasher->add(piece.bytes);
-    if (result.bytes->size() < result.size) return true;
-    if (result.hasher->finish() != piece.hash) throw Error("a result of preparing arrived damaged");
-    results_->keep(piece.hash, std::move(result.bytes));
+    if (!result.arriving || result.arriving->size() != result.size) result.arriving.emplace(piece.hash, result.size);
+    const auto arrival = result.arriving->take(piece.offset, piece.bytes);
+    if (arrival == Arrival::under_way) return true;
+    if (arrival == Arrival::too_long) throw Error("a result is longer than it was said to be");
+    if (arrival == Arrival::damaged) throw Error("a result of preparing arrived damaged");
+    results_->keep(piece.hash, result.arriving->bytes());
     has(piece.hash);
     return true;
 }

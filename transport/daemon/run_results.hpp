@@ -17,6 +17,7 @@
 #include "transport/daemon/background_work.hpp"
 #include "transport/daemon/results_from_others.hpp"
 #include "transport/lines/message_frame.hpp"
+#include "transport/store/arriving_bytes.hpp"
 #include "transport/store/results.hpp"
 #include "transport/wire/packet.hpp"
 
@@ -67,8 +68,7 @@ private:
     struct Expected {
         std::uint64_t size = 0;
         std::vector<std::string> holders;
-        std::shared_ptr<std::vector<std::byte>> bytes;  // from the launcher; null before it has begun
-        std::optional<Hasher> hasher;
+        std::optional<ArrivingResult> arriving;  // from the launcher, since it has begun
     };
     struct Wish {
         Frames way;  // [route][address]

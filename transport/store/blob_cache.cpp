@@ -65,9 +65,9 @@ Bytes BlobCache::read(const Hash& hash) const {
     return bytes;
 }
 
-BlobCache::Incoming BlobCache::receive(const Hash& hash) const {
+BlobCache::Incoming BlobCache::receive(const Hash& hash, std::uint64_t size) const {
     mark_.renew();
-    Incoming incoming(path_of(hash), hash);
+    Incoming incoming(path_of(hash), hash, size);
     // Not while it is being made: a buffer that finds no memory would leave the file behind.
     incoming.file_.open(incoming.partial_, std::ios::binary | std::ios::trunc);
     return incoming;
@@ -78,18 +78,16 @@ CacheClaim BlobCache::claim() const {
     return CacheClaim(folder_);
 }
 
-BlobCache::Incoming::Incoming(std::string path, const Hash& hash)
+BlobCache::Incoming::Incoming(std::string path, const Hash& hash, std::uint64_t size)
     : path_(std::move(path)),
       // one of its own: a blob may come from its beginning again before the first attempt is given up
       partial_(path_ + ".part-" + std::to_string(getpid()) + "-" + std::to_string(std::random_device()())),
-      hash_(hash) {}
+      pieces_(hash, size) {}
 
 BlobCache::Incoming::Incoming(Incoming&& other) noexcept
     : path_(std::move(other.path_)),
       partial_(std::exchange(other.partial_, {})),
-      hash_(other.hash_),
-      hasher_(std::move(other.hasher_)),
-      size_(other.size_),
+      pieces_(std::move(other.pieces_)),
       file_(std::move(other.file_)) {}
 
 BlobCache::Incoming::~Incoming() {
@@ -98,25 +96,24 @@ BlobCache::Incoming::~Incoming() {
 }
 
 void BlobCache::store(const Hash& hash, std::span<const std::byte> blob) const {
-    auto incoming = receive(hash);
+    auto incoming = receive(hash, blob.size());
     incoming.write(blob);
     incoming.appear();
 }
 
-void BlobCache::Incoming::add(std::span<const std::byte> piece) {
-    hasher_.add(piece);
-    write(piece);
+bool BlobCache::Incoming::take(std::uint64_t offset, std::span<const std::byte> piece) {
+    const auto fresh = pieces_.take(offset, piece);
+    if (pieces_.state() == Arrival::too_long) throw Error("a file of the scene is longer than it was said to be");
+    if (pieces_.state() == Arrival::damaged) throw Error("a file of the scene arrived damaged");
+    write(fresh);
+    const bool whole = pieces_.state() == Arrival::whole;
+    if (whole) appear();
+    return whole;
 }
 
 void BlobCache::Incoming::write(std::span<const std::byte> piece) {
-    size_ += piece.size();
     file_.write(reinterpret_cast<const char*>(piece.data()), static_cast<std::streamsize>(piece.size()));
     if (!file_) throw Error(partial_, "can't be written");
-}
-
-void BlobCache::Incoming::finish() {
-    if (hasher_.finish() != hash_) throw Error("a file of the scene arrived damaged");
-    appear();
 }
 
 void BlobCache::Incoming::appear() {

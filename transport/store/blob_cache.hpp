@@ -12,6 +12,7 @@
 #include "core/readers/files/files.hpp"
 #include "core/run/assembly/job.hpp"
 #include "core/run/message/tuning.hpp"
+#include "transport/store/arriving_bytes.hpp"
 #include "transport/store/cache_claim.hpp"
 #include "transport/store/cache_folder.hpp"
 
@@ -26,21 +27,18 @@ public:
     public:
         ~Incoming();
         Incoming(Incoming&& other) noexcept;
-        std::uint64_t size() const { return size_; }
-        /// Throws Error when the disk refuses.
-        void add(std::span<const std::byte> piece);
-        /// From now on it is in the cache. Throws Error when it is not what its name says.
-        void finish();
+        std::uint64_t here() const { return pieces_.here(); }
+        /// A piece, as ArrivingBytes takes it. True: it is whole, and in the cache. Throws Error when the disk refuses,
+        /// and when it is longer than it was said to be, or is not what its name says.
+        bool take(std::uint64_t offset, std::span<const std::byte> piece);
 
     private:
         friend class BlobCache;
         void write(std::span<const std::byte> piece);
         void appear();
-        Incoming(std::string path, const Hash& hash);
+        Incoming(std::string path, const Hash& hash, std::uint64_t size);
         std::string path_, partial_;  // partial_ empty: nothing to remove
-        Hash hash_;
-        Hasher hasher_;
-        std::uint64_t size_ = 0;
+        ArrivingBytes pieces_;
         std::ofstream file_;
     };
 
@@ -50,8 +48,9 @@ public:
     bool has(const Hash& hash) const;
     /// The blob, verified: a damaged one is removed and none is given.
     Bytes read(const Hash& hash) const;
-    /// Room for a blob that comes in pieces. It is not synced: what is read is verified, and can be sent again.
-    Incoming receive(const Hash& hash) const;
+    /// Room for a blob of `size` bytes that comes in pieces. It is not synced: what is read is verified, and can be
+    /// sent again.
+    Incoming receive(const Hash& hash, std::uint64_t size) const;
     /// Stores a blob that is what its name says. Throws Error when the disk refuses.
     void store(const Hash& hash, std::span<const std::byte> blob) const;
     /// Removes the blobs and recipes that were not read for the longest time until the folder is within its limit, and
