@@ -27,6 +27,7 @@ class Session:
         self._folder = program.folder()
         folder = self._folder.__enter__()
         self._at, self._number, self._held, self._process, self._functions = folder, 0, {}, None, None
+        self._refused = False  # the last edit that was wrong
         try:
             self._functions = operators.served(image, folder, options)
             with program.uninterrupted():
@@ -76,7 +77,8 @@ class Session:
                 self._held = _joined(self._held, edit)
                 yield made
         except UserError:
-            self._send(_taken_back(edit, self._held))  # else all that follows would be wrong, too
+            if not self._refused:  # it holds: all that follows would be wrong, too
+                self._send(_taken_back(edit, self._held))
             raise
 
     def _pictures(self, number):
@@ -87,6 +89,7 @@ class Session:
             if event["event"] == "error":
                 problem = self._functions.failure or UserError("\n".join(_text(one) for one in event["problems"]))
                 self._functions.failure = None
+                self._refused = event["refused"]
                 raise problem
             if event["event"] == "picture":
                 made = picture.in_folder(self._at, whole=event["finished"])

@@ -248,7 +248,7 @@ TEST_F(SessionTest, NoticesFilesThatAreWrittenOrReplaced) {
     EXPECT_EQ(end(), 0);
 }
 
-TEST_F(SessionTest, LosesAPictureAndNoMoreToAMistake) {
+TEST_F(SessionTest, ChangesNothingByAMistake) {
     begin();
     wait_for_picture(0);
     say(R"({"id": 7, "set": {"lihgt.samples": 2}})");
@@ -257,22 +257,59 @@ TEST_F(SessionTest, LosesAPictureAndNoMoreToAMistake) {
     ASSERT_TRUE(session_->wait_for("did you mean 'camera'")) << session_->output();
     say("no JSON");
     ASSERT_TRUE(session_->wait_for("malformed JSON")) << session_->output();
-    say(R"({"set": {"lihgt.samples": null, "light.smaples": 2}})");
+    say(R"({"set": {"light.samples": 3, "light.smaples": 2}})");
     ASSERT_TRUE(session_->wait_for("did you mean 'samples'")) << session_->output();
-    say(R"({"set": {"light.smaples": null}})");
+    say(R"({"set": {"light.samples": 2}})");
     wait_for_picture(5);
-    write(folder / "g.lua", "x = = 3\n");
-    ASSERT_TRUE(session_->wait_for("g.lua")) << session_->output();
-    ASSERT_TRUE(session_->wait_for("\"line\":1")) << session_->output();
-    write(folder / "g.lua", graph_text);
-    wait_for_picture(7);
-    EXPECT_TRUE(now() == fresh());
-    for (const int id : {7, 8}) {
+    EXPECT_TRUE(now() == fresh("samples = 1", "samples = 2"));
+    say(R"({"id": 9, "set": {"light.samples": 3, "scene.lamps": {"blakc": 2}}})");  // seen when the scene is edited
+    ASSERT_TRUE(session_->wait_for("did you mean 'black'")) << session_->output();
+    say(R"({"scene": "nowhere.pbrt"})");
+    ASSERT_TRUE(session_->wait_for("nowhere.pbrt")) << session_->output();
+    say(R"({"camera": {"fov": 30}, "set": {"light.samples": null}})");
+    wait_for_picture(8);
+    EXPECT_TRUE(now() == fresh("\"box.pbrt\"", "\"box.pbrt\", camera = { fov = 30 }"));
+    for (const auto& event : events())
+        if (event["event"] == "error") {
+            EXPECT_EQ(event["refused"], true) << event;
+        }
+    for (const int id : {7, 8, 9}) {
         const auto all = events();
         EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Tree& event) {
             return event["event"] == "error" && event.value("id", 0) == id;
         })) << session_->output();
     }
+    EXPECT_EQ(end(), 0);
+}
+
+TEST_F(SessionTest, GoesOnWithThePictureBeforeAMistake) {
+    begin({"--threads", "2", "-D", "samples=16000000"});
+    ASSERT_TRUE(session_->wait_for("\"samples\":1")) << session_->output();
+    say(R"({"set": {"scene.lamps": {"blakc": 2}}})");
+    ASSERT_TRUE(session_->wait_for("did you mean 'black'")) << session_->output();
+    ASSERT_TRUE(session_->wait_for("\"event\":\"picture\",\"edit\":1")) << session_->output();
+    say(R"({"constants": {"samples": 4}})");
+    wait_for_picture(2);
+    EXPECT_TRUE(now() == fresh());
+    say(R"({"set": {"light.samples": -1}})");
+    EXPECT_EQ(end(), 2) << "the last edit was refused";
+}
+
+TEST_F(SessionTest, KeepsEditsWhileAFileIsAtFault) {
+    begin();
+    wait_for_picture(0);
+    write(folder / "g.lua", "x = = 3\n");
+    ASSERT_TRUE(session_->wait_for("g.lua")) << session_->output();
+    ASSERT_TRUE(session_->wait_for("\"line\":1")) << session_->output();
+    say(R"({"set": {"light.samples": 2}})");
+    ASSERT_TRUE(session_->wait_for("\"edit\":2")) << session_->output();
+    write(folder / "g.lua", graph_text);
+    wait_for_picture(3);
+    EXPECT_TRUE(now() == fresh("samples = 1", "samples = 2"));
+    for (const auto& event : events())
+        if (event["event"] == "error") {
+            EXPECT_EQ(event["refused"], false) << event;
+        }
     EXPECT_EQ(end(), 0);
 }
 

@@ -329,6 +329,7 @@ try {
     await stage.locator('[id="direct.samples"]').press("Enter");
     await stage.getByTestId("problem").waitFor();
     assert.match(await stage.getByTestId("problem").textContent(), /'samples' is -3/);
+    assert.match(await stage.getByTestId("params").locator("code").textContent(), /direct\.samples = 2$/, "what is refused changes nothing");
     await stage.getByTestId("moving").check();
     const { x, y, width, height } = await stage.getByTestId("picture").boundingBox();
     await stage.mouse.move(x + width / 2, y + height / 2);
@@ -337,6 +338,7 @@ try {
     await stage.mouse.up();
     await pause(300);
     assert.notEqual(await stage.getByTestId("camera-line").textContent(), line, "a drag moves the camera");
+    await stage.getByTestId("problem").waitFor({ state: "detached" });
     await stage.getByText("End session").click();
     assert.equal(await session.ended, 130, session.said);
 

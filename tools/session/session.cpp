@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -51,13 +52,14 @@ public:
     }
     /// Those who watch are told, too.
     void show_to(WatchServer* server) { server_ = server; }
-    void tell(const UserError& error) {
+    /// `refused`: the edit has changed nothing.
+    void tell(const UserError& error, bool refused) {
         JsonTree problems = JsonTree::list();
         for (const auto& [where, what] : error.problems())
             problems.push_back({{"file", where.file}, {"line", where.line}, {"what", what}});
-        tell("error", error.what(), {{"problems", std::move(problems)}});
+        tell("error", error.what(), {{"problems", std::move(problems)}, {"refused", refused}});
     }
-    void tell(const std::exception& error) { tell(UserError({"session", 0}, words_of(error))); }
+    void tell(const std::exception& error) { tell(UserError({"session", 0}, words_of(error)), false); }
     /// What is told next belongs to another edit; `id`: as JSON, "": it has none.
     void begin(const std::string& id) { ++edits_, id_ = id; }
 
@@ -83,10 +85,11 @@ public:
         queue_.watch(files_);
         while (true) {
             const int code = render();
-            for (bool wanted = false; !wanted; wanted = take_news()) {
+            for (bool wanted = std::exchange(goes_on_, false); !wanted; wanted = take_news()) {
                 if (stopped()) return leave(exit_code::interrupted);
                 if (!events_.sound()) return exit_code::failed;
-                if (ends_ && !queue_.signals().superseded) return leave(code);
+                if (ends_ && !queue_.signals().superseded)
+                    return leave(refused_ && code == exit_code::done ? exit_code::usage : code);
                 queue_.wait();
             }
         }
@@ -100,7 +103,10 @@ private:
         if (news.lines.empty() && news.files.empty()) return false;
         edited_ = news.since.value_or(Clock::now());
         stop_ = seconds_since(edited_);
-        if (!news.files.empty()) events_.begin("");
+        if (!news.files.empty()) {
+            events_.begin("");
+            forget_files();
+        }
         const bool scene_too = news.files.size() > 1 || !news.files.contains(graph_);
         if (!news.files.empty() && scene_too) handover_.forget_files();
         bool wanted = !news.files.empty() || !finished_;
@@ -113,34 +119,85 @@ private:
         events_.begin(id_of(line));
         try {
             const Edit edit = edit_of(line);
-            take(edit, edits_);
+            const bool wanted = edit.changes() || !edit.end;
+            if (wanted) take(edit);
             ends_ |= edit.end;
-            return edit.changes() || !edit.end;
+            return wanted;
+        } catch (const UserError& error) {
+            events_.tell(error, true);
         } catch (const Error& error) {
-            events_.tell(UserError({"edit", 0}, error.what()));
-            return false;
+            events_.tell(UserError({"edit", 0}, error.what()), true);
         }
+        refused_ = true;
+        return false;
+    }
+
+    // Throws UserError, and leaves all as it was, where the edit is at fault.
+    void take(const Edit& edit) {
+        GraphEdits edits = edits_;
+        lightnet::take(edit, edits);
+        if (files_hold_) try {
+                read_graph(edits);
+                before_.push_back({edits_, finished_});
+            } catch (const UserError&) {
+                if (can_be_read(edits_)) throw;
+                forget_files();  // which have changed since
+            }
+        edits_ = std::move(edits);
+        finished_ = refused_ = false;
+    }
+
+    void forget_files() {
+        files_hold_ = false;
+        before_.clear();
+        request_.reset();
+    }
+
+    bool can_be_read(const GraphEdits& edits) try {
+        read_graph(edits);
+        return true;
+    } catch (const UserError&) {
+        return false;
+    }
+
+    void read_graph(const GraphEdits& edits) {
+        const auto begun = Clock::now();
+        request_.emplace(session_.request(edits));
+        read_ = seconds_since(begun);
     }
 
     int render() {
         int code = exit_code::usage;
         finished_ = false;
         try {
-            const auto begun = Clock::now();
-            RunRequest request = session_.request(edits_);
-            read_ = seconds_since(begun);
+            if (!request_) read_graph(edits_);
+            RunRequest request = std::move(*std::exchange(request_, std::nullopt));
             files_.insert(request.scene);
             request.shown = [this, &request](const PictureShown& shown) { tell(request, shown); };
             code = run(request, registry_, &handover_, queue_.signals());
             finished_ = code == exit_code::done;
         } catch (const UserError& error) {
-            events_.tell(error);
+            events_.tell(error, take_back());
         } catch (const Error& error) {
             code = exit_code::failed;
             events_.tell(error);
         }
         look_after_files();
         return code;
+    }
+
+    // Takes back the last edit of which nothing has been shown, as it is at fault; what was there goes on. False: there
+    // is none, and so the fault is in the files.
+    bool take_back() {
+        if (before_.empty()) {
+            files_hold_ = false;
+            return false;
+        }
+        refused_ = true;
+        std::tie(edits_, finished_) = std::move(before_.back());
+        before_.pop_back();
+        goes_on_ = !finished_;
+        return true;
     }
 
     // Those of a scene that can't be read stay in view, as they will be mended.
@@ -167,6 +224,8 @@ private:
 
     void tell(const RunRequest& request, const PictureShown& shown) {
         look_after_files();
+        files_hold_ = true;
+        before_.clear();
         const double seconds = seconds_since(edited_);
         JsonTree warnings = JsonTree::list();
         for (const auto& warning : shown.warnings) warnings.push_back(warning);
@@ -198,6 +257,9 @@ private:
     const std::string graph_;      // its file, by its absolute name
     std::set<std::string> files_;  // of the graph, and of the scene that was read last
     GraphEdits edits_;
+    std::optional<RunRequest> request_;  // of the edits, where it has been read already
+    std::vector<std::tuple<GraphEdits, bool>>
+        before_;  // what held before each edit of which nothing is shown; finished
     Handover handover_;
     EditQueue queue_;
     std::optional<WatchServer> server_;  // before those whom it calls are gone
@@ -206,6 +268,9 @@ private:
     double stop_ = 0, read_ = 0;  // seconds: until the picture at work had ended; in which the graph was read
     bool ends_ = false;           // with the picture at work
     bool finished_ = false;       // the picture of all edits so far
+    bool files_hold_ = false;     // as they are, they have given a picture
+    bool goes_on_ = false;        // with the picture before an edit that was taken back
+    bool refused_ = false;        // the last edit
 };
 
 }  // namespace

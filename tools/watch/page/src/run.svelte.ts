@@ -16,6 +16,7 @@ class Run {
     camera = $state.raw<Camera | null>(null); // of a session
     changed = $state.raw<Record<string, number | boolean | object>>({}); // parameters that this page has set
     edited = $state.raw<Edited | null>(null); // the last that the session has told
+    mistake = $state.raw<Edited | null>(null); // why the last edit came to nothing
     explained = $state.raw<Explained | null>(null); // the pixel that was clicked at; without words: they are on the way
     chosen = $state(""); // the node that was clicked; "": none
     frozen = $state(false);
@@ -121,14 +122,24 @@ class Run {
     }
     private hear_of_edit(edited: Edited) {
         this.edited = edited;
+        if (edited.event === "error") this.hear_of_mistake(edited);
+        else if (this.mistake?.edit !== edited.edit) this.mistake = null; // else the picture before it goes on
         this.waits = 0;
         this.say_wish();
     }
+    private hear_of_mistake(mistake: Edited) {
+        this.mistake = mistake;
+        if (mistake.refused && mistake.id?.path) this.note(mistake.id.path, mistake.id.before);
+    }
     /// Null: as the graph has it.
     set(path: string, value: number | boolean | object | null) {
+        const id = { path, before: this.changed[path] ?? null }; // comes back with what is said of the edit
+        this.note(path, value);
+        this.say({ do: "edit", edit: { id, set: { [path]: value } } });
+    }
+    private note(path: string, value: number | boolean | object | null) {
         const { [path]: _, ...others } = this.changed;
         this.changed = value === null ? others : { ...others, [path]: value };
-        this.say({ do: "edit", edit: { set: { [path]: value } } });
     }
     take_back() {
         const none = Object.fromEntries(Object.keys(this.changed).map((path) => [path, null]));

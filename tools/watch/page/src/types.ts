@@ -109,6 +109,8 @@ export interface Edited {
     finished?: boolean;
     seconds?: number;
     problems?: { file: string; line: number; what: string }[];
+    refused?: boolean; // it changes nothing
+    id?: { path?: string; before: number | boolean | object | null }; // as this page gives them to its edits
 }
 
 /// How a pixel came about, or why that can't be told.
