@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/base/json.hpp"
+#include "core/base/plain_file.hpp"
 #include "core/film/exr.hpp"
 #include "core/network/graph/graph_film.hpp"
 #include "nodes/standard_nodes.hpp"
@@ -78,7 +80,7 @@ TEST(AutoLighting, TriesSmallPicturesOnThisMachineAndKeepsNothing) {
         EXPECT_LE(film.width * film.height, 46u * 46);
     }
     // Paths of other trials with the first one's random numbers would seem perfect.
-    for (std::size_t i = 1; i < lightnet.tried.size(); ++i) EXPECT_GT(lightnet.tried[i].seed, lightnet.tried[0].seed);
+    for (std::size_t i = 1; i < lightnet.tried.size(); ++i) EXPECT_NE(lightnet.tried[i].seed, lightnet.tried[0].seed);
     ASSERT_THAT(lightnet.runs, SizeIs(1));
     EXPECT_EQ(lightnet.runs[0].mode, Mode::network) << "the picture is made where it was to be made";
     EXPECT_EQ(film_of(lightnet.runs[0].graph, lightnet.registry).width, 160u);
@@ -193,6 +195,29 @@ TEST(AutoLighting, OfAReportThatNamesNoneIsTriedAnew) {
     EXPECT_EQ(lighting_of_earlier({picture}).name, "");
     std::ofstream(report_beside(picture)) << "no report";
     EXPECT_EQ(lighting_of_earlier({picture, lightnet.file("none.exr")}).name, "");
+}
+
+// Rays that shoot photons are counted: in the picture there are hardly any.
+TEST(AutoLighting, LeavesThePictureWhatTrialsHavePrepared) {
+    Studio lightnet;
+    ASSERT_EQ(lightnet({"render", graphs + "glass_ball.pbrt", "--lighting", "figure5", "--size", "8x8", "--samples",
+                        "1", "-o", lightnet.file("x.exr"), "--cache", "none", "--progress", "none"}),
+              0)
+        << lightnet.err;
+    RunRequest picture = lightnet.runs.at(0);
+    picture.read.reset();  // each reads the scene for itself
+    const auto rays = [&] {
+        return parse_json(PlainFile(report_beside(lightnet.file("x.exr")), longest_report).text(), {.depth = 64})
+            .at("counters")
+            .at("rays")
+            .number();
+    };
+    ASSERT_EQ(lightnet.trials.run(picture, 1e9), exit_code::done);
+    const double first = rays();
+    ASSERT_EQ(lightnet.trials.run_to_end(picture), exit_code::done);
+    EXPECT_LT(rays(), first / 4);
+    ASSERT_EQ(TrialRuns(lightnet.registry).run_to_end(picture), exit_code::done);
+    EXPECT_EQ(rays(), first) << "of other trials there is nothing";
 }
 
 // A hosts file that names nodes of one network excludes the others.

@@ -74,6 +74,23 @@ TEST(LightingPromise, EndsWithManySamples) {
     EXPECT_EQ(promise_of(path_trial(), asked, few).covers, Covers::nothing) << "nobody knows what makes the error";
 }
 
+// Records and maps are off by more than paths are then; progressive ones are not.
+TEST(LightingPromise, IsThatPhotonsWithoutEndCoverCausticsOfManySamples) {
+    const AskedPicture many{65536, 16384};
+    EXPECT_EQ(promise_of(path_trial_of(PathKind::caustic), many, few).covers, Covers::caustics);
+    EXPECT_EQ(promise_of(path_trial_of(PathKind::mirrored, 0.85), many, few).covers, Covers::caustics);
+    EXPECT_NE(promise_of(path_trial_of(PathKind::caustic, 0.6), many, few).covers, Covers::caustics)
+        << "the rest of the error gets worse";
+    EXPECT_NE(promise_of(path_trial_of(PathKind::caustic), many, 1e6).covers, Covers::caustics);
+    EXPECT_FALSE(promise_of(path_trial_of(PathKind::caustic), many, few).is_clear) << "it is tried";
+}
+
+TEST(LightingChoice, KnowsWhatFallsMoreSlowlyThanNoise) {
+    LightingTrial photons = path_trial();
+    photons.own_error = 0, photons.shared_error = 0.001, photons.shared_falls = 2.0 / 3;
+    EXPECT_NEAR(forecast_of(photons, {65536, 64}).error, 0.001 / 4, 1e-12);
+}
+
 TEST(LightingChoice, TakesWhatWasForetold) {
     LightingTrial foretold{.name = "irradiance_cache", .foretold = "paths LD+D make 99 % of the error"};
     const std::vector trials{path_trial(), foretold};

@@ -11,6 +11,7 @@
 #include "core/base/json.hpp"
 #include "core/base/own_process.hpp"
 #include "core/base/plain_file.hpp"
+#include "core/film/tile.hpp"
 #include "core/readers/statistics.hpp"
 #include "tools/cli/lightings.hpp"
 #include "tools/cli/loading.hpp"
@@ -23,7 +24,7 @@ namespace lightnet {
 namespace {
 
 constexpr double trial_samples = 8;
-constexpr double part_of_work = 0.01;                           // of the picture's samples: what a trial has
+constexpr double part_of_work = 0.0075;                         // of the picture's samples: what a trial has
 constexpr double least_pixels = 1024, most_pixels = 160 * 160;  // of a trial
 
 /// How a picture is tried: smaller, and with few samples.
@@ -118,9 +119,12 @@ private:
     void add(const Lighting& lighting) {
         auto excluded = why_not(lighting);
         const auto trial = trial_size(size_, asked_.pixels, asked_.samples);
-        TrialRequest added{lighting.name,       request(lighting, running_of_trial(picture_.running, trial), {}),
-                           std::move(excluded), lighting.is_biased,
-                           lighting.is_biased,  known_of(lighting, trial)};
+        TrialRequest added{lighting.name,
+                           request(lighting, running_of_trial(picture_.running, trial), {}),
+                           std::move(excluded),
+                           lighting.is_biased,
+                           lighting.is_biased && lighting.covers != Covers::caustics,
+                           known_of(lighting, trial)};
         fit_pixels(trial, added);
         requests_.push_back(std::move(added));
     }
@@ -151,6 +155,10 @@ private:
         known.samples = trial.samples;
         known.covers = lighting.covers;
         if (lighting.is_biased) known.preparing_grows = 1 / trial.shrinks;  // records lie along what is seen
+        if (lighting.covers == Covers::caustics) {
+            known.preparing_grows = std::ceil(asked_.samples / samples_per_block);  // maps of each pass
+            known.shared_falls = 2.0 / 3;
+        }
         if (lighting.learns)
             known.preparing_grows =
                 lessons_of(std::uint64_t(asked_.pixels), std::uint64_t(asked_.samples)) / lessons_of(0, 0);

@@ -34,7 +34,7 @@ bool change(SceneData& data, const Job& job, const Registry& registry, bool othe
 }  // namespace
 
 void Handover::hold(const Job& job, const Registry& registry, std::shared_ptr<ReadScene> read) {
-    drop();
+    forget_files();
     source_ = scene_source(job, registry);
     read_ = std::move(read);
 }
@@ -51,16 +51,16 @@ std::optional<LoadedScene> Handover::take(const Job& job, const Registry& regist
     auto source = scene_source(job, registry);
     const bool same = source == *source_, other_parts = source.edits != source_->edits;
     LoadedScene scene;
-    if (!holds_scene_of(job, registry)) return drop(), std::nullopt;
+    if (!holds_scene_of(job, registry)) return forget_files(), std::nullopt;
     if (built_) {
         scene.built = same ? built_ : other_parts ? edited(job, registry, *built_) : seen_by(job, registry, *built_);
-        if (!scene.built) return drop(), std::nullopt;
+        if (!scene.built) return forget_files(), std::nullopt;
         expect_sound(job, registry, scene.built->data());
         built_ = scene.built;  // also where this run ends before it renders
     } else {
         expect_sound(job, registry, *data_);
         scene.data = *std::exchange(data_, std::nullopt);
-        if (!same && !change(scene.data, job, registry, other_parts)) return drop(), std::nullopt;
+        if (!same && !change(scene.data, job, registry, other_parts)) return forget_files(), std::nullopt;
     }
     if (other_parts) tree_.reset();
     source_ = std::move(source);
@@ -75,7 +75,7 @@ bool Handover::holds_scene_of(const Job& job, const Registry& registry) const {
     return source.is_but_for_edits(*source_);
 }
 
-void Handover::drop() {
+void Handover::forget_files() {
     source_.reset();
     read_.reset();
     if (built_ && may_stay_beside_another(*built_)) before_ = built_;

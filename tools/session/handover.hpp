@@ -13,6 +13,7 @@
 #include "core/scene/scene.hpp"
 #include "tools/request/run_request.hpp"
 #include "tools/session/crew.hpp"
+#include "tools/session/results_at_hand.hpp"
 #include "tools/watch/watch_server.hpp"
 
 namespace lightnet {
@@ -45,8 +46,8 @@ public:
     /// Will take() find the scene of that job, as far as can be told without looking at it?
     bool holds_scene_of(const Job& job, const Registry& registry) const;
 
-    /// They have changed on the disk, so the next job reads them anew.
-    void forget_files() { drop(); }
+    /// The next job reads them anew: they have changed on the disk, or it wants others.
+    void forget_files();
 
     /// True for what nobody has said yet.
     bool is_new(const std::string& warning) { return said_.insert(warning).second; }
@@ -54,6 +55,8 @@ public:
     void say_again() { said_.clear(); }
     /// Where its runs are watched, one after the other; null: each has a page of its own, if any.
     WatchServer* server = nullptr;
+    /// What nodes of its runs have prepared, for those that prepare the same; null: each looks on the disk alone.
+    std::shared_ptr<ResultsAtHand> results{};
     /// What became of the last run: its picture was there already.
     bool was_there = false;
     /// Has the files of a run written, by another thread, while the next run goes on; what it is given returns an exit
@@ -63,8 +66,6 @@ public:
     std::function<void()> loaded = {};
 
 private:
-    void drop();
-
     std::optional<Crew> crew_;
     std::set<std::string> liars_, said_;
     std::optional<SceneSource> source_;

@@ -175,15 +175,18 @@ std::uint32_t Rendering::tiles_per_place(const Plan& plan) const {
 // Where what nodes prepare is kept. Doing without is slower, and no error.
 ResultCache* Rendering::cache() {
     if (what_.request.tuning.verify > 0) return nullptr;  // what earlier runs have kept there nobody has verified
-    if (what_.request.tuning.cache == "none" || preparing_nodes(what_.job.graph, what_.registry).empty())
-        return nullptr;
+    if (preparing_nodes(what_.job.graph, what_.registry).empty()) return nullptr;
+    const auto at_hand = what_.handover ? what_.handover->results : nullptr;
+    if (what_.request.tuning.cache == "none") return at_hand.get();
     try {
-        cache_.emplace(what_.request.tuning.cache.empty() ? default_cache_folder() : what_.request.tuning.cache,
-                       what_.request.tuning.cache_size);
-        return &*cache_;
+        cache_ = std::make_unique<DiskResultCache>(
+            what_.request.tuning.cache.empty() ? default_cache_folder() : what_.request.tuning.cache,
+            what_.request.tuning.cache_size);
+        if (at_hand) cache_ = at_hand_before(at_hand, std::move(cache_));
+        return cache_.get();
     } catch (const Error& error) {
         book_.account().warn(std::string("what nodes prepare is not kept: ") + error.what());
-        return nullptr;
+        return at_hand.get();
     }
 }
 

@@ -95,7 +95,7 @@ private:
     RunRecorder& book_;
     const Signals& signals_;
     std::size_t image_;
-    std::optional<DiskResultCache> cache_;
+    std::unique_ptr<ResultCache> cache_;
     std::uint64_t id_;
     std::set<std::string> liars_;  // hosts that take no part any more
     bool whole_ = false;           // each host is to hold the whole network, whatever the hosts file says

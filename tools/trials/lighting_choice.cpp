@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace lightnet {
@@ -37,7 +38,7 @@ LightingPromise promise_of(const LightingTrial& first, const AskedPicture& asked
     constexpr double more_direct = 2;   // noise of direct light
     constexpr double of_gloss = 0.5;    // of that of what is seen in gloss: it is looked for anew, in maps or by paths
     constexpr double most_narrow = 4;   // error of a sample: records of paths have too much noise
-    constexpr double least_caustic = 0.5, least_learnt = 0.2;
+    constexpr double least_caustic = 0.35, most_caustic = 0.8, least_learnt = 0.2;
     const auto part = [&](PathKind kind) { return std::max(0.0, first.parts[static_cast<std::size_t>(kind)]); };
     const double of_sample = first.own_error * first.samples, alone = of_sample / asked.samples;
     // Also what glossy metal casts, which records of paths meet as seldom.
@@ -56,7 +57,10 @@ LightingPromise promise_of(const LightingTrial& first, const AskedPicture& asked
     promise.is_clear = promise.times >= clear_promise(asked, triangles);
     promise.why = fmt::format("paths {} make {:.0f} % of the error", word_of(static_cast<PathKind>(most)),
                               100 * std::min(1.0, first.parts[most]));
-    if (promise.times >= least_promise)
+    const bool casts_all = part(PathKind::caustic) + part(PathKind::mirrored) >= most_caustic;
+    if (casts_all && is_plain(triangles) && !promise.is_clear && of_sample > 0)
+        promise.covers = Covers::caustics;
+    else if (promise.times >= least_promise)
         promise.covers =
             (caustic >= least_caustic && promise.is_clear && is_plain(triangles)) || of_sample >= most_narrow
                 ? Covers::all
@@ -69,7 +73,7 @@ LightingPromise promise_of(const LightingTrial& first, const AskedPicture& asked
 LightingForecast forecast_of(const LightingTrial& trial, const AskedPicture& asked) {
     const double longer = asked.samples / trial.samples, larger = asked.pixels / trial.pixels;
     const double seconds = trial.preparing * trial.preparing_grows + trial.rendering * larger * longer;
-    return {seconds, trial.own_error / longer + trial.shared_error};
+    return {seconds, trial.own_error / longer + trial.shared_error * std::pow(longer, -trial.shared_falls)};
 }
 
 std::size_t best_lighting(const std::vector<LightingTrial>& trials, const AskedPicture& asked) {

@@ -11,8 +11,9 @@
 namespace lightnet {
 
 /// Which light paths a lighting covers better than path tracing does: those by way of rough surfaces, where paths find
-/// light; all of them; or those along which it pays to learn where light is, which it finds out by itself.
-enum class Covers : std::uint8_t { nothing, soft, all, narrow };
+/// light; all of them; those that a mirror or glass casts, also where records would be off; or those along which it
+/// pays to learn where light is, which it finds out by itself.
+enum class Covers : std::uint8_t { nothing, soft, all, caustics, narrow };
 
 /// What a trial of one way has shown: a small picture with few samples. Errors are relative squares, the mean of d² /
 /// (light² + 0.01). A value.
@@ -24,7 +25,8 @@ struct LightingTrial {
     double preparing = 0, rendering = 0;  // processor seconds
     double preparing_grows = 1;           // of the picture that is asked for: so many times as long
     double own_error = 0;                 // that neighbours don't share: falls as 1 / samples
-    double shared_error = 0;              // noise of records and photons, and bias: stays
+    double shared_error = 0;              // noise of records and photons, and bias
+    double shared_falls = 0;              // with samples to the power of minus that; 0: stays
     Covers covers = Covers::nothing;
     LightByKind parts{};  // of its error: light paths of each kind; all 0: not known
 };

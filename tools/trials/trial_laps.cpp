@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "core/base/json.hpp"
@@ -22,21 +24,26 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double for_ever = 1e9;
-constexpr double looks_of_first = 0.5;  // part of its samples that tell which light paths make the error
+constexpr std::uint64_t seeds_of_pair = std::tuple_size_v<PicturePair>;
+constexpr double most_of_sample = 0.5;  // what one takes between records, beside path tracing's
+constexpr double looks_of_first = 0.4;  // part of its samples that tell which light paths make the error
 
 /// What phases of a run took, by its report: seconds on the clock.
 struct Phases {
     double all = 0, preparing = 0, rendering = 0;
 };
 
-// The part of preparing that goes into records along what is seen, by the seconds of its shards.
+// The part of preparing that goes into records along what is seen, by what nodes said of it.
 double part_of_records(const Json& report) {
+    if (!report.has("preparing")) return 0;
+    std::set<std::string> of_records;
+    for (const auto& node : report.at("nodes").list())
+        if (node.at("kind").text() == "IrradianceCache") of_records.insert(node.at("name").text());
     double records = 0, all = 0;
-    for (const auto& node : report.at("nodes").list()) {
-        if (!node.has("preparing")) continue;
-        const double seconds = node.at("preparing").at("seconds").number();
+    for (const auto& step : report.at("preparing").list()) {
+        const double seconds = step.at("seconds").number();
         all += seconds;
-        if (node.at("kind").text() == "IrradianceCache") records += seconds;
+        if (of_records.contains(step.at("node").text())) records += seconds;
     }
     return all > 0 ? records / all : 0;
 }
@@ -73,7 +80,8 @@ public:
         request.output = file.string();
         if (lap > 0) request.read.reset();  // the first has taken it away
         request.looks = lap == 0 ? looks_of_first : 0;
-        request.seed += 1 + lap;  // none of the picture that is asked for
+        // None of the picture that is asked for; but what nodes prepare is for that, too.
+        if (lap < seeds_of_pair) request.seed += 1 + lap;
         const double before = course_.processor_seconds();
         const int code = course_.run(request, most);
         const double used = course_.processor_seconds() - before;
@@ -90,7 +98,8 @@ public:
         // The first of all laps loads the scene and builds it for all.
         used_ += used_ > 0 ? used : rendered;
         figures.preparing = prepared, figures.rendering += rendered;
-        figures.preparing_grows = 1 + (trial.known.preparing_grows - 1) * (trial.records ? part_of_records(report) : 1);
+        // What is none of the records is there already when the picture wants it.
+        if (trial.records) figures.preparing *= part_of_records(report);
         take_noise(report, figures);
         Picture picture = read_exr(file);
         figures.pixels = double(picture.beauty.size());
@@ -137,7 +146,7 @@ private:
     }
     // Where hosts, or options of the picture, exclude what was promised, or path tracing itself.
     Covers instead() const {
-        if (promise_.covers == Covers::nothing || promise_.covers == Covers::narrow)
+        if (promise_.covers != Covers::soft && promise_.covers != Covers::all)
             if (is_allowed(Covers::nothing)) return Covers::nothing;
         for (const Covers other : {Covers::soft, Covers::all, Covers::narrow})
             if (is_allowed(other)) return other;
@@ -184,12 +193,14 @@ private:
             figures.failed = "not tried, as trials have taken their part of the time";
             return;
         }
-        // With a seed of the first's, guided paths that are not guided would be the very same.
         const auto picture = laps_.run(request, pair_.size(), figures, most);
         if (!picture) {
             figures.failed = fmt::format("its trial takes more than {:.2g} s", most);
             return;
         }
+        // Pixels of a small picture lie farther from records than those of the whole: more of them are made on the way.
+        if (request.records)
+            figures.rendering = std::min(figures.rendering, most_of_sample * trials_.front().rendering);
         const auto [own, shared] = errors_of(pair_, {*picture}).back();
         if (request.is_biased)
             figures.own_error = own, figures.shared_error = shared;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/base/own_process.hpp"
+#include "core/run/assembly/prepared.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/run.hpp"
 #include "tools/session/run_figures.hpp"
@@ -44,11 +45,13 @@ private:
 }  // namespace
 
 struct TrialRuns::Shared {
+    explicit Shared(const Registry& all) : registry(all) { handover.results = std::make_shared<ResultsAtHand>(); }
+
     const Registry& registry;
     Handover handover{};
 };
 
-TrialRuns::TrialRuns(const Registry& registry) : shared_(new Shared{registry}) {}
+TrialRuns::TrialRuns(const Registry& registry) : shared_(new Shared(registry)) {}
 TrialRuns::~TrialRuns() = default;
 
 int TrialRuns::run(const RunRequest& request, double seconds) {
@@ -58,6 +61,8 @@ int TrialRuns::run(const RunRequest& request, double seconds) {
 
 int TrialRuns::run_to_end(const RunRequest& request) {
     shared_->handover.say_again();
+    // What nobody asks for need not lie in memory.
+    if (preparing_nodes(request.graph, shared_->registry).empty()) shared_->handover.results.reset();
     return lightnet::run(request, shared_->registry, &shared_->handover);
 }
 

@@ -8,7 +8,7 @@
 
 namespace lightnet {
 
-/// Keeps the scene as it was read and built from run to run. One thread's.
+/// Keeps the scene as it was read and built from run to run, and what nodes have prepared, in memory. One thread's.
 class TrialRuns {
 public:
     explicit TrialRuns(const Registry& registry);
