@@ -1,7 +1,5 @@
 // Path guiding: learns beforehand where light comes from, for path tracing.
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -21,18 +19,10 @@
 namespace lightnet {
 namespace {
 
-constexpr std::size_t rounds = 4;
+constexpr std::size_t rounds = guide_rounds;
 constexpr std::size_t compared = 4;       // of so many paths one goes by surfaces alone
 constexpr double work_of_lesson = 2.6;    // of a path that is learnt from, in paths of the picture: measured
 constexpr double least_of_lessons = 4.5;  // times as many paths has a picture that is worth its first round
-
-// How many times less noise × work there must be after each round. The guide that is judged has not learnt from that
-// round yet, which doubles what it knows: then it helps more. Before the last round nobody is turned down who may still
-// pay; in the end who can't be told to pay is.
-bool pays(const GuideTrial::Gain& gain, std::size_t round) {
-    constexpr std::array<double, rounds> least_gain{0, 0.72, 0.8, 0.85};
-    return (round + 1 < rounds ? gain.high() : gain.low()) >= least_gain[round];
-}
 
 // DECISIONS: lessons-have-a-price
 // All a guide can take away is noise: there must be more of it where a larger part of the picture's work is still to
@@ -86,11 +76,17 @@ public:
         auto guide = goes_on ? made(services, found) : nullptr;
         bool helps = !tries || picture_ == 0 || picture_ >= least_of_lessons * double(paths_);
         const std::vector<Query> questions = helps ? points(services) : std::vector<Query>();
+        std::vector<GuideTrial::Gain> gains;
+        GuideTrial::Gain noise;
         for (std::size_t round = 0; round < rounds && helps && !questions.empty(); ++round) {
             found.push_back(learn(services, {questions, round, guide.get(), tries}));
-            if (tries && round == 0 && picture_ > 0)
-                helps = may_pay(noise_of(services, found, questions.size()), work_after_first() / picture_);
-            if (tries && round > 0) helps = pays(gain_of(services, found, questions.size()), round);
+            if (tries && round == 0) {
+                noise = noise_of(services, found, questions.size());
+                helps = picture_ == 0 || may_pay(noise, work_after_first() / picture_);
+            } else if (tries) {
+                gains.push_back(gain_of(services, found, questions.size()));
+                helps = guide_pays(gains, noise.times);
+            }
             if (helps) guide = made(services, found);
         }
         if (!helps && found.empty())

@@ -1,5 +1,6 @@
 #include "core/estimate/guide_trial.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lightnet {
@@ -7,6 +8,19 @@ namespace {
 
 constexpr double work_of_guide = 1.3;  // beside paths without one: measured on rooms
 constexpr double dark = 0.5;           // of the mean over all points
+
+// What all rounds have said of the gain.
+GuideTrial::Gain gain_of_all(std::span<const GuideTrial::Gain> gains) {
+    // The guide that was judged earlier knew less. In rooms the last one's gain is so many times as large.
+    constexpr std::array<double, guide_rounds - 1> to_come{1.3, 1.15, 1};
+    double weights = 0, sum = 0;
+    for (std::size_t i = 0; i < gains.size(); ++i) {
+        const double times = to_come[i] * gains[i].times, error = to_come[i] * gains[i].error;
+        if (!(error > 0)) continue;
+        weights += 1 / (error * error), sum += times / (error * error);
+    }
+    return weights > 0 ? GuideTrial::Gain{sum / weights, 1 / std::sqrt(weights)} : GuideTrial::Gain{};
+}
 
 double times_of(double alone, double guided) { return guided > 0 ? alone / guided / work_of_guide : 0; }
 
@@ -86,6 +100,20 @@ GuideTrial::Gain GuideTrial::gain() const {
 
 GuideTrial::Gain GuideTrial::noise_alone() const {
     return with_error([](const Kinds& kinds) { return kinds[0].noise(); });
+}
+
+// How many times less noise × work there must be. The guide that is judged has not learnt from its round yet, which
+// doubles what it knows: then it helps more. Before the last round nobody is turned down who may still pay, which is in
+// doubt for longer where there is much noise to take away; in the end who can't be told to pay is, neither by that
+// round nor by all.
+// DECISIONS: rounds-judge-together
+bool guide_pays(std::span<const GuideTrial::Gain> gains, double noise) {
+    constexpr std::array<double, guide_rounds> least_gain{0, 0.72, 0.8, 0.85};
+    constexpr double much = 0.5, doubt = 2.5;  // standard errors
+    const auto& last = gains.back();
+    const double gain = gains.size() + 1 < guide_rounds ? last.times + (noise > much ? doubt : 1) * last.error
+                                                        : std::max(last.low(), gain_of_all(gains).low());
+    return gain >= least_gain[gains.size()];
 }
 
 }  // namespace lightnet

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/estimate/light_guide.hpp"
@@ -24,9 +25,8 @@ public:
     /// How many times more noise × work paths by surfaces alone have than guided ones, and its standard error.
     struct Gain {
         double times = 0, error = 0;
-        /// It is hardly less, or hardly more: the odds are two to one, and five to one.
+        /// It is hardly less: the odds are two to one.
         double low() const { return times - 0.5 * error; }
-        double high() const { return times + error; }
     };
 
     /// Paths begin at so many points: at most 2²³.
@@ -65,5 +65,12 @@ private:
     std::size_t points_;
     std::array<std::vector<Path>, 2> kinds_;
 };
+
+/// A guide learns in so many rounds.
+inline constexpr std::size_t guide_rounds = 4;
+
+/// Does it pay to go on after the rounds of which these are the gains, in their order? The first round has none, as
+/// nobody guides it. `noise`: of paths that nobody guides. At least one gain, at most one less than there are rounds.
+bool guide_pays(std::span<const GuideTrial::Gain> gains, double noise);
 
 }  // namespace lightnet
