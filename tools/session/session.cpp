@@ -10,7 +10,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "core/base/json_tree.hpp"
 #include "core/base/words_of.hpp"
 #include "tools/session/edit_queue.hpp"
+#include "tools/session/edits_in_force.hpp"
 #include "tools/session/handover.hpp"
 #include "tools/session/run.hpp"
 #include "tools/support/exit_code.hpp"
@@ -77,6 +77,7 @@ public:
           registry_(registry),
           graph_(std::filesystem::absolute(session.graph).lexically_normal().string()),
           files_{session.graph},
+          edits_(session.request),
           queue_(session.edits),
           events_(session.events) {}
 
@@ -89,7 +90,7 @@ public:
                 if (stopped()) return leave(exit_code::interrupted);
                 if (!events_.sound()) return exit_code::failed;
                 if (ends_ && !queue_.signals().superseded)
-                    return leave(refused_ && code == exit_code::done ? exit_code::usage : code);
+                    return leave(edits_.refused() && code == exit_code::done ? exit_code::usage : code);
                 queue_.wait();
             }
         }
@@ -105,11 +106,11 @@ private:
         stop_ = seconds_since(edited_);
         if (!news.files.empty()) {
             events_.begin("");
-            forget_files();
+            edits_.forget_files();
         }
         const bool scene_too = news.files.size() > 1 || !news.files.contains(graph_);
         if (!news.files.empty() && scene_too) handover_.forget_files();
-        bool wanted = !news.files.empty() || !finished_;
+        bool wanted = !news.files.empty() || !edits_.finished();
         for (const auto& line : news.lines) wanted |= take_line(line);
         return wanted;
     }
@@ -120,7 +121,7 @@ private:
         try {
             const Edit edit = edit_of(line);
             const bool wanted = edit.changes() || !edit.end;
-            if (wanted) take(edit);
+            if (wanted) edits_.take(edit);
             ends_ |= edit.end;
             return wanted;
         } catch (const UserError& error) {
@@ -128,76 +129,29 @@ private:
         } catch (const Error& error) {
             events_.tell(UserError({"edit", 0}, error.what()), true);
         }
-        refused_ = true;
+        edits_.refuse();
         return false;
-    }
-
-    // Throws UserError, and leaves all as it was, where the edit is at fault.
-    void take(const Edit& edit) {
-        GraphEdits edits = edits_;
-        lightnet::take(edit, edits);
-        if (files_hold_) try {
-                read_graph(edits);
-                before_.push_back({edits_, finished_});
-            } catch (const UserError&) {
-                if (can_be_read(edits_)) throw;
-                forget_files();  // which have changed since
-            }
-        edits_ = std::move(edits);
-        finished_ = refused_ = false;
-    }
-
-    void forget_files() {
-        files_hold_ = false;
-        before_.clear();
-        request_.reset();
-    }
-
-    bool can_be_read(const GraphEdits& edits) try {
-        read_graph(edits);
-        return true;
-    } catch (const UserError&) {
-        return false;
-    }
-
-    void read_graph(const GraphEdits& edits) {
-        const auto begun = Clock::now();
-        request_.emplace(session_.request(edits));
-        read_ = seconds_since(begun);
     }
 
     int render() {
         int code = exit_code::usage;
-        finished_ = false;
+        edits_.set_finished(false);
         try {
-            if (!request_) read_graph(edits_);
-            RunRequest request = std::move(*std::exchange(request_, std::nullopt));
+            RunRequest request = edits_.request();
             files_.insert(request.scene);
             request.shown = [this, &request](const PictureShown& shown) { tell(request, shown); };
             code = run(request, registry_, &handover_, queue_.signals());
-            finished_ = code == exit_code::done;
+            edits_.set_finished(code == exit_code::done);
         } catch (const UserError& error) {
-            events_.tell(error, take_back());
+            const bool refused = edits_.take_back();
+            events_.tell(error, refused);
+            goes_on_ = refused && !edits_.finished();
         } catch (const Error& error) {
             code = exit_code::failed;
             events_.tell(error);
         }
         look_after_files();
         return code;
-    }
-
-    // Takes back the last edit of which nothing has been shown, as it is at fault; what was there goes on. False: there
-    // is none, and so the fault is in the files.
-    bool take_back() {
-        if (before_.empty()) {
-            files_hold_ = false;
-            return false;
-        }
-        refused_ = true;
-        std::tie(edits_, finished_) = std::move(before_.back());
-        before_.pop_back();
-        goes_on_ = !finished_;
-        return true;
     }
 
     // Those of a scene that can't be read stay in view, as they will be mended.
@@ -224,12 +178,11 @@ private:
 
     void tell(const RunRequest& request, const PictureShown& shown) {
         look_after_files();
-        files_hold_ = true;
-        before_.clear();
+        edits_.shown();
         const double seconds = seconds_since(edited_);
         JsonTree warnings = JsonTree::list();
         for (const auto& warning : shown.warnings) warnings.push_back(warning);
-        JsonTree took{{"stop", stop_}, {"read", read_}};
+        JsonTree took{{"stop", stop_}, {"read", edits_.read_seconds()}};
         std::map<std::string, double> parts;  // one that is there twice: of a look, and of what follows it
         for (const auto& [part, its_seconds] : shown.took) parts[part] += its_seconds;
         for (const auto& [part, its_seconds] : parts) took[part] = its_seconds;
@@ -256,21 +209,15 @@ private:
     const Registry& registry_;
     const std::string graph_;      // its file, by its absolute name
     std::set<std::string> files_;  // of the graph, and of the scene that was read last
-    GraphEdits edits_;
-    std::optional<RunRequest> request_;  // of the edits, where it has been read already
-    std::vector<std::tuple<GraphEdits, bool>>
-        before_;  // what held before each edit of which nothing is shown; finished
+    EditsInForce edits_;
     Handover handover_;
     EditQueue queue_;
     std::optional<WatchServer> server_;  // before those whom it calls are gone
     Events events_;
     Clock::time_point edited_ = Clock::now();
-    double stop_ = 0, read_ = 0;  // seconds: until the picture at work had ended; in which the graph was read
-    bool ends_ = false;           // with the picture at work
-    bool finished_ = false;       // the picture of all edits so far
-    bool files_hold_ = false;     // as they are, they have given a picture
-    bool goes_on_ = false;        // with the picture before an edit that was taken back
-    bool refused_ = false;        // the last edit
+    double stop_ = 0;       // seconds until the picture at work had ended
+    bool ends_ = false;     // with the picture at work
+    bool goes_on_ = false;  // with the picture before an edit that was taken back
 };
 
 }  // namespace
