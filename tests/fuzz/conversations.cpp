@@ -16,6 +16,7 @@
 #include "tests/fuzz/targets.hpp"
 #include "tests/modes/stranger.hpp"
 #include "tests/support/host_thread.hpp"
+#include "transport/wire/relay_address.hpp"
 
 namespace lightnet::fuzz {
 namespace {
@@ -24,9 +25,10 @@ using packet::Fields;
 using packet::Type;
 using View = std::span<const std::byte>;
 
-// A packet of an input: type (0: nothing is said for a moment), number of the run, and 16 bits of how long the body is
-// that follows.
+// A packet of an input: type (0: nothing is said for a moment), number of the run (and 128, if it comes from another
+// host, behind an address), and 16 bits of how long the body is that follows.
 constexpr std::size_t head = 4, most_packets = 40;
+constexpr std::byte of_another_host{128};
 constexpr auto moment = std::chrono::milliseconds(4);
 
 struct Daemon {
@@ -56,6 +58,14 @@ bool hears(test::Stranger& stranger, Type wanted) {
     return false;
 }
 
+void say(test::Stranger& stranger, bool as_another_host, const packet::Packet& packet) {
+    static const std::string address = seal({"another", "place"});
+    if (as_another_host)
+        stranger.send_behind(address, packet);
+    else
+        stranger.send(packet);
+}
+
 void read(View bytes) {
     static Daemon daemon;
     test::Stranger stranger(daemon.host.endpoint());
@@ -66,8 +76,9 @@ void read(View bytes) {
         if (bytes[0] == std::byte{0})
             std::this_thread::sleep_for(moment);
         else
-            stranger.send(packet_of(static_cast<Type>(bytes[0]), std::to_integer<std::uint64_t>(bytes[1]),
-                                    bytes.subspan(head, size)));
+            say(stranger, (bytes[1] & of_another_host) != std::byte{0},
+                packet_of(static_cast<Type>(bytes[0]), std::to_integer<std::uint64_t>(bytes[1] & ~of_another_host),
+                          bytes.subspan(head, size)));
         bytes = bytes.subspan(head + size);
     }
     for (int run = 0; run < 256; ++run) stranger.send(packet::pack(Type::end, std::uint64_t(run), {}));
@@ -112,6 +123,8 @@ std::vector<std::string> seeds() {
     const auto hello = Fields{}.set("build", build_id()).set("isa", usual_isa()).set("version", 1);
     const auto blob = packet::pack(std::uint64_t{7}, packet::Piece{hash, 0, std::as_bytes(std::span(scene))});
     const auto expect = Fields{}.set("hash", to_hex(hash)).set("size", 40);
+    const auto fetch = Fields{}.set("hash", to_hex(hash)).set("offset", 3).set("size", 10);
+    constexpr char another = 7 | char(-128);
     const auto ping = Fields{}.set("sent", 1).set("watch", 1).set("asked_at", 5);
     const std::string pause(head, '\0'), opening = say(Type::hello, 0, hello) + say(Type::begin, 7, begin);
     const std::string served = opening + pause + pause + said(Type::blob, 7, blob) + pause + pause + pause;
@@ -122,6 +135,9 @@ std::vector<std::string> seeds() {
             opening + say(Type::expect, 7, expect) +
                 say(Type::members, 7, Fields{}.set("members", "").set("numbers", "")) + say(Type::leaving, 7, {}) +
                 say(Type::end, 7, {}) + opening,
+            served + say(Type::fetch, another, fetch) + say(Type::fetch, another, {}) + pause +
+                say(Type::fetch, another, Fields{fetch}.set("offset", std::uint64_t{1} << 40)) +
+                say(Type::ask_light, another, {}) + say(Type::lacks, another, fetch) + pause,
             say(Type::join, 0, Fields{}.set("name", "x").set("process", 1)) + say(Type::state, 0, {}) +
                 say(Type::ask_pixels, 7, {}) + say(Type::part, 7, {}) + say(Type::mark, 7, {}) + opening};
 }

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstring>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -68,6 +69,11 @@ std::vector<std::string> seeds() {
         seeds.push_back(text_of(packet::pack(message, 0)));
     const auto fields = packet::Fields{}.set("places", 4).set("build", "0.1.0").set("offset", std::uint64_t{1} << 40);
     seeds.push_back(text_of(packet::pack(packet::Type::hello, 1, fields)));
+    const auto piece = packet::Fields{}.set("hash", std::string(64, 'a')).set("offset", 7).set("size", 9);
+    for (const auto type : {packet::Type::fetch, packet::Type::lacks, packet::Type::expect})
+        seeds.push_back(text_of(packet::pack(type, 1, piece)));
+    const std::array bytes{std::byte{1}, std::byte{2}};
+    seeds.push_back(text_of(packet::pack(1, packet::Piece{content_hash(bytes), 7, bytes})));
     return seeds;
 }
 

@@ -31,6 +31,11 @@ public:
         socket_.set(zmq::sockopt::rcvtimeo, slowdown * patience_ms);
         socket_.connect(endpoint);
     }
+    /// As an ask of another host, whose `address` it goes behind.
+    void send_behind(const std::string& address, const packet::Packet& packet) {
+        socket_.send(zmq::const_buffer(address.data(), address.size()), zmq::send_flags::sndmore);
+        send(packet);
+    }
     void send(const packet::Packet& packet) {
         socket_.send(zmq::const_buffer(packet.header.data(), packet.header.size()), zmq::send_flags::sndmore);
         socket_.send(zmq::const_buffer(packet.body.data(), packet.body.size()));
@@ -42,6 +47,10 @@ public:
             if (!came(header)) return {packet::Type::ping, {}};
         } while (header.size() == 0 && !header.more());
         if (!came(body)) return {packet::Type::ping, {}};
+        while (body.more()) {  // behind an address
+            header = std::move(body);
+            if (!came(body)) return {packet::Type::ping, {}};
+        }
         const auto view = [](const zmq::message_t& m) {
             return std::span(static_cast<const std::byte*>(m.data()), m.size());
         };
