@@ -46,7 +46,7 @@ struct SpeedyDaemon {
     std::unique_ptr<ProcessorGroup> group;  // outlives who is in it
     std::unique_ptr<Daemon> daemon;
     std::uint32_t places = 1;
-    double speed = 1;
+    double speed = 1, processors = 0;  // 0: one for each place
 };
 
 /// What is laid out, and where.
@@ -174,10 +174,12 @@ public:
         said.hosts = {folder_.write("foreseen.lua", hosts_file(trial_, layout))};
         said.line = "10Gbit,0.05ms";
         const auto line = line_called(said.line, {}).value();
-        for (std::size_t host = 0; host < layout.size(); ++host)
-            if (std::find(layout[host].begin(), layout[host].end(), true) != layout[host].end())
-                said.speeds.push_back(
-                    fmt::format("{}={}", trial_.hosts[host].daemon->endpoint(), trial_.hosts[host].speed));
+        for (std::size_t host = 0; host < layout.size(); ++host) {
+            if (std::find(layout[host].begin(), layout[host].end(), true) == layout[host].end()) continue;
+            const auto& [group, daemon, places, speed, processors] = trial_.hosts[host];
+            said.speeds.push_back(fmt::format("{}={}", daemon->endpoint(), speed));
+            if (processors > 0) said.processors.push_back(fmt::format("{}={}", daemon->endpoint(), processors));
+        }
         return foreseen_on(crew_called(said), recorded_, costs_, line, registry_).what;
     }
 
@@ -284,7 +286,7 @@ void measure_computing(std::uint64_t seed) {
     const double of_one = 0.875 * usable_cores() / 7;
     for (const std::uint32_t places : {4U, 2U, 1U}) {
         auto& host = trial.hosts.emplace_back();
-        host.places = places, host.speed = of_one;
+        host.places = places, host.processors = of_one * places;
         const auto called = "host" + std::to_string(places);
         host.group = std::make_unique<ProcessorGroup>(called, of_one * places);
         if (!host.group->there())

@@ -87,7 +87,7 @@ private:
         double power = 0, quickest = 0;
         for (std::size_t host = 0; host < sets.size(); ++host) {
             if (!(sets[host] >> node & 1)) continue;
-            power += powers_[host], quickest = std::max(quickest, made_.hosts[host].speed);
+            power += powers_[host], quickest = std::max(quickest, powers_[host]);
         }
         return work_[node].shards / power + work_[node].own / quickest;
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/run/forecast/shared_processors.hpp"
 
 namespace lightnet::forecast_test {
 namespace {
@@ -75,6 +76,45 @@ TEST(Forecast, GivesQuickHostsMore) {
     EXPECT_NEAR(found.seconds, 400 * 0.5 / 4, 0.03 * found.seconds);
 }
 
+// Four places with one processor: as one place, where all have work; and one that works alone has all of it.
+TEST(Forecast, SharesProcessorsAmongPlacesThatWork) {
+    auto hosts = hosts_of(1, 4);
+    hosts[0].processors = 1;
+    auto costs = costs_of(400, 0.05);
+    auto found = everywhere(costs, hosts);
+    EXPECT_NEAR(found.render, 20, 0.2);
+    EXPECT_NEAR(found.efficiency, 1, 0.01);
+    costs.nodes[0].preparing = {.shards = 400, .shard_seconds = 40, .own_seconds = 3, .bytes = 0};
+    found = everywhere(costs, hosts);
+    EXPECT_NEAR(found.prepare, 43, 0.5);
+    const auto alone = forecast(costs_of(400, 0.05), plan_of(costs, hosts_of(1, 1), {{0, 1}}), hosts, quick, 1);
+    EXPECT_NEAR(alone.render, 20, 0.2) << "one of its places alone";
+}
+
+TEST(Forecast, GivesPlacesPartsOfAProcessor) {
+    auto hosts = hosts_of(2);
+    hosts[0].processors = 0.25;
+    EXPECT_NEAR(everywhere(costs_of(400, 0.05), hosts).render, 20 / 1.25, 0.5);
+}
+
+TEST(SharedProcessors, GiveEachAnEqualShareOfWhatThereIs) {
+    EventQueue events;
+    SharedProcessors processors(events, 1.5);
+    std::vector<double> ends;
+    const auto note = [&] { ends.push_back(events.now()); };
+    processors.work(1, note);                              // alone until .5, then with others
+    events.at(0.5, [&] { processors.work(1, note); });     // two: .75 each
+    events.at(0.5, [&] { processors.work(0.25, note); });  // three: .5 each
+    while (events.next() < EventQueue::never) events.step();
+    ASSERT_EQ(ends.size(), 3u);
+    EXPECT_NEAR(ends[0], 1, 1e-9) << "the third has had a quarter by then";
+    EXPECT_NEAR(ends[1], 1 + 0.25 / 0.75, 1e-9) << "the first had .75";
+    EXPECT_NEAR(ends[2], 1 + 0.25 / 0.75 + 0.5, 1e-9) << "alone at the end";
+    processors.work(2, note);
+    while (events.next() < EventQueue::never) events.step();
+    EXPECT_NEAR(ends[3], ends[2] + 2, 1e-9);
+}
+
 TEST(Forecast, FollowsAmdahl) {
     auto costs = costs_of(256, 0.5);
     costs.nodes[1].preparing = {.shards = 0, .shard_seconds = 0, .own_seconds = 20, .bytes = 0};
@@ -91,6 +131,27 @@ TEST(Forecast, SharesThePiecesOfPreparing) {
     costs.nodes[0].preparing = {.shards = 400, .shard_seconds = 40, .own_seconds = 0, .bytes = 0};
     const auto found = everywhere(costs, hosts_of(8));
     EXPECT_NEAR(found.prepare, 5, 0.2);
+}
+
+// Of eight places seven wait while one does the last piece of a round.
+TEST(Forecast, WaitsForTheEndOfEachRoundOfPreparing) {
+    auto costs = costs_of(16, 0.5);
+    costs.nodes[0].preparing = {.shards = 36, .shard_seconds = 36, .own_seconds = 0, .bytes = 0, .rounds = 4};
+    EXPECT_NEAR(everywhere(costs, hosts_of(8)).prepare, 4 * 2, 0.1);
+    costs.nodes[0].preparing.rounds = 1;
+    EXPECT_NEAR(everywhere(costs, hosts_of(8)).prepare, 5, 0.1);
+}
+
+// Half a second, and those who are later still take no part at first.
+TEST(Forecast, WaitsForThoseWhoAreLateForARehearsal) {
+    auto costs = costs_of(16, 0.5);
+    costs.nodes[0].preparing = {.shards = 0, .shard_seconds = 0, .own_seconds = 0.2, .bytes = 0};
+    costs.nodes[1].preparing = {.shards = 80, .shard_seconds = 8, .own_seconds = 0, .bytes = 0, .rehearses = true};
+    auto hosts = hosts_of(2);
+    hosts[1].speed = 0.5;
+    EXPECT_NEAR(everywhere(costs, hosts).prepare, 0.4 + 8 / 1.5, 0.2);
+    hosts[1].speed = 0.1;
+    EXPECT_NEAR(everywhere(costs, hosts).prepare, 2 + (8 - (2 - 0.7)) / 1.1, 0.2) << "the late one comes after 2 s";
 }
 
 TEST(Forecast, FindsTheSlowLine) {

@@ -11,7 +11,7 @@ namespace {
 
 PlaceRecord some_record(std::uint32_t index) {
     PlaceRecord record{"tcp://onyx:7777", index, ~std::uint64_t{0}, 2, 3, {}, {}};
-    record.nodes["a \"quoted\" node"] = {1, 2, 3, 4, 5, 6, 7, 8, 9, {{{80, 3}, {84, 5}}}};
+    record.nodes["a \"quoted\" node"] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, {{{80, 3}, {84, 5}}}};
     record.edges[{"image", "light"}] = {6, 7, 8, 9, 10, 11, 12, 13, 14};
     return record;
 }
@@ -24,10 +24,10 @@ TEST(PlaceRecord, SurvivesItsWayAsText) {
 
 TEST(PlaceRecord, KeepsAShareOfWorkAlone) {
     PlaceRecord record = some_record(0);
-    record.nodes.begin()->second = {1, 200, 3, 4, 5, 6, 70, 80, 9, {{{80, 3}, {84, 5}}}};
+    record.nodes.begin()->second = {1, 200, 3, 4, 5, 6, 2, 70, 80, 9, {{{80, 3}, {84, 5}}}};
     record.edges.begin()->second = {6, 7, 800, 9, 10, 11, 12, 13, 140};
     keep_of_work(0.5, record);
-    const NodeRecord node{1, 100, 3, 4, 5, 6, 35, 40, 9, {{{76, 3}, {80, 5}}}};
+    const NodeRecord node{1, 100, 3, 4, 5, 6, 2, 35, 40, 9, {{{76, 3}, {80, 5}}}};
     EXPECT_EQ(record.nodes.begin()->second, node) << "half the cost is an octave, four steps";
     const EdgeRecord edge{6, 7, 400, 9, 10, 11, 12, 13, 70};
     EXPECT_EQ(record.edges.begin()->second, edge);

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/base/error.hpp"
 #include "core/base/json.hpp"
 #include "nodes/standard_nodes.hpp"
@@ -63,6 +65,7 @@ TEST(ForecastHosts, AreSaidByNameAndPlaces) {
     options.lines = {"slow=100Mbit,5ms"};
     options.memory = {"16G", "slow=512M"};
     options.speeds = {"slow=0.5"};
+    options.processors = {"fast=1.5"};
     const auto crew = crew_called(options);
     ASSERT_EQ(crew.hosts.size(), 2u);
     EXPECT_EQ(crew.hosts[0].places, 8u);
@@ -70,6 +73,8 @@ TEST(ForecastHosts, AreSaidByNameAndPlaces) {
     EXPECT_EQ(crew.hosts[0].memory, 16 * 0x1p30);
     EXPECT_EQ(crew.hosts[1].line.seconds, 5e-3);
     EXPECT_EQ(crew.hosts[1].speed, 0.5);
+    EXPECT_EQ(crew.hosts[0].processors, 1.5);
+    EXPECT_EQ(crew.hosts[1].power(), 1.0);
     EXPECT_EQ(crew.hosts[1].memory, 512 * 0x1p20);
 }
 
@@ -107,6 +112,21 @@ TEST(ScaledCosts, CostAsMuchPerSample) {
     EXPECT_NEAR(more.nodes[1].seconds, 0.1 * 4 / 4, 1e-12);  // a quarter of the pixels, four times the samples
     EXPECT_NEAR(more.edges[0].questions, 100, 1e-9);
     EXPECT_EQ(more.picture.frames, 3u);
+}
+
+TEST(ScaledCosts, GrowWithThePictureWhereItIsLearntFrom) {
+    RunCosts costs;
+    costs.nodes = {
+        {"map", 1e-6, {10, 4, 0.1, 1000, 2}, 3000}, {"records", 1e-6, {10, 4, 0.1, 1000, 2, true}, 3000}, {"image", 1}};
+    costs.image = 2;
+    costs.picture = {64, 64, 4, 32};
+    const auto more = scaled(costs, {256, 256});
+    EXPECT_EQ(more.nodes[0].preparing.shard_seconds, 4);
+    const double larger = std::pow(4, 0.8);  // as measured
+    EXPECT_NEAR(more.nodes[1].preparing.shard_seconds, 4 * larger, 1e-9);
+    EXPECT_NEAR(more.nodes[1].preparing.own_seconds, 0.1 * larger, 1e-9);
+    EXPECT_NEAR(more.nodes[1].memory, 3000 * larger, 1e-9);
+    EXPECT_EQ(more.nodes[1].preparing.shards, 31u);
 }
 
 TEST(LaidOut, IsAHostsFileForPeople) {

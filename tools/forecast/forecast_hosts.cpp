@@ -77,6 +77,12 @@ void set_facts(std::vector<ForecastHost>& hosts, const ForecastHostsOptions& opt
         if (!speed || !speed->unit.empty()) refuse("--speed", text, "NAME=2");
         for_named(hosts, "--speed", name, [&](ForecastHost& host) { host.speed = speed->number; });
     }
+    for (const auto& text : options.processors) {
+        const auto [name, what] = named(text);
+        const auto count = amount_in(what);
+        if (!count || !count->unit.empty()) refuse("--processors", text, "NAME=1.5");
+        for_named(hosts, "--processors", name, [&](ForecastHost& host) { host.processors = count->number; });
+    }
 }
 
 void add_entry(ForecastCrew& crew, HostEntry entry) {

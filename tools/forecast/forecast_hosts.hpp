@@ -28,6 +28,7 @@ struct ForecastHostsOptions {
     std::string line = "1Gbit,0.2ms";         // of each, and of the launcher
     std::vector<std::string> lines;           // NAME=10Gbit,0.1ms
     std::vector<std::string> memory, speeds;  // 16G or NAME=16G; NAME=2
+    std::vector<std::string> processors;      // NAME=1.5
 };
 
 /// "16G": of all of them; "NAME=16G": of that one. Throws UserError.

@@ -21,6 +21,9 @@ namespace {
 constexpr JsonLimits limits_of_report{.depth = JsonLimits{}.depth + 4};  // around the graph's own levels
 constexpr double memory_of_results = 3;   // times their bytes: with what is built from them, as photon maps are
 constexpr double bytes_of_question = 60;  // and of a colour, where none was sent
+// What a node learns where a picture looks at costs the more the larger the picture is, and less than its pixels do.
+// DECISIONS: records-by-side
+constexpr double grows_of_records = 0.8, grows_of_pixels = 2;
 
 double number_in(const Json& object, std::string_view member) {
     return object.has(member) ? object.at(member).number() : 0;
@@ -37,7 +40,8 @@ std::uint32_t whole_in(std::string_view text) {
 /// Takes one report apart.
 class ReportOfCosts {
 public:
-    ReportOfCosts(const Json& report, const Graph& graph, const Registry& registry) : report_(report) {
+    ReportOfCosts(const Json& report, const Graph& graph, const Registry& registry)
+        : report_(report), kinds_(registry) {
         run_.graph = graph;
         auto& costs = run_.costs;
         costs.image = renderer_of(graph, registry);
@@ -119,6 +123,8 @@ private:
             cost.own_seconds = preparing.at("own_seconds").number();
             cost.bytes = preparing.at("bytes").number();
             cost.shards = preparing.at("shards").whole<std::uint32_t>();
+            cost.rehearses = kinds_.find(run_.graph.nodes[index].kind)->run.rehearses;
+            cost.rounds = preparing.has("rounds") ? preparing.at("rounds").whole<std::uint32_t>() : 0;
             if (cost.shards == 0 && cost.shard_seconds > 0) cost.shards = rehearsed_tiles();
             node.memory = memory_of_results * cost.bytes;
             seconds_[index] -= cost.shard_seconds;
@@ -189,6 +195,7 @@ private:
     }
 
     const Json& report_;
+    const Registry& kinds_;
     RecordedRun run_;
     double blocks_ = 0;
     std::map<std::size_t, double> seconds_;    // of threads, by node, while it rendered
@@ -248,6 +255,17 @@ RunCosts scaled(RunCosts costs, const OtherPicture& other) {
     const double times = side * side * in_block(picture) / in_block(before);
     costs.nodes[costs.image].seconds *= times;
     costs.launcher_tile_seconds *= side * side;
+    const double sides =
+        std::sqrt(double(picture.width) * picture.height / (double(before.width) * double(before.height)));
+    for (std::size_t i = 0; i < costs.nodes.size(); ++i) {
+        auto& node = costs.nodes[i];
+        auto& preparing = node.preparing;
+        if (i != costs.image && !preparing.rehearses) continue;
+        const double larger = std::pow(sides, i == costs.image ? grows_of_pixels : grows_of_records);
+        preparing.shards = std::uint32_t(std::ceil(larger * preparing.shards));
+        preparing.shard_seconds *= larger, preparing.own_seconds *= larger, preparing.bytes *= larger;
+        node.memory *= larger;
+    }
     costs.write_seconds *= double(picture.width) * picture.height / (double(before.width) * before.height);
     for (auto& edge : costs.edges)
         if (edge.from == costs.image) edge.questions *= times;

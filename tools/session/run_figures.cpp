@@ -20,17 +20,21 @@ std::string whole_name(const std::string& node) { return node.substr(0, node.fin
 struct NodeSum {
     NodeRecord figures;
     std::uint64_t questions = 0, called_ns = 0, calling_ns = 0;
+    std::map<std::string, std::uint64_t> prepare_ns{};  // by host: copies of one host do it together
 };
 
-void add_node(NodeSum& sum, const NodeRecord& more) {
+void add_node(NodeSum& sum, const std::string& host, const NodeRecord& more) {
     sum.figures.answered += more.answered;
     sum.figures.busy_ns += more.busy_ns;
     sum.figures.bundles += more.bundles;
     sum.figures.replies += more.replies;
     sum.figures.latency_ns += more.latency_ns;
     sum.figures.shards = std::max(sum.figures.shards, more.shards);
+    sum.figures.rounds = std::max(sum.figures.rounds, more.rounds);
     sum.figures.shard_ns += more.shard_ns;
-    sum.figures.prepare_ns = std::max(sum.figures.prepare_ns, more.prepare_ns);
+    auto& of_host = sum.prepare_ns[host];
+    of_host += more.prepare_ns;
+    sum.figures.prepare_ns = std::max(sum.figures.prepare_ns, of_host);
     sum.figures.prepared = std::max(sum.figures.prepared, more.prepared);
     sum.figures.costs.add(more.costs);
 }
@@ -42,8 +46,8 @@ void fill(NodeReport& node, const NodeSum& sum) {
     node.bundles = sum.figures.bundles;
     node.seconds = in_seconds(all);
     node.own_seconds = in_seconds(all - std::min(all, sum.calling_ns));
-    node.shards = {sum.figures.shards, in_seconds(sum.figures.shard_ns), in_seconds(sum.figures.prepare_ns),
-                   sum.figures.prepared};
+    node.shards = {sum.figures.shards, sum.figures.rounds, in_seconds(sum.figures.shard_ns),
+                   in_seconds(sum.figures.prepare_ns), sum.figures.prepared};
     for (const auto& [step, count] : sum.figures.costs.counts)
         node.spread.emplace_back(1e-9 * CostSpread::ns_of(step), count);
     if (sum.figures.replies) node.latency = in_seconds(sum.figures.latency_ns) / double(sum.figures.replies);
@@ -81,7 +85,7 @@ void add_figures(RunReport& report, const std::vector<PlaceRecord>& records) {
     std::map<std::string, NodeSum> nodes;
     std::map<std::pair<std::string, std::string>, EdgeRecord> edges;
     for (const auto& record : records) {
-        for (const auto& [name, figures] : record.nodes) add_node(nodes[whole_name(name)], figures);
+        for (const auto& [name, figures] : record.nodes) add_node(nodes[whole_name(name)], record.host, figures);
         for (const auto& [ends, more] : record.edges) {
             auto& edge = edges[{whole_name(ends.first), whole_name(ends.second)}];
             edge.asks += more.asks, edge.questions += more.questions;

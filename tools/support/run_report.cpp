@@ -19,6 +19,7 @@ JsonTree tree_of(const NodeReport& node) {
                      {"latency", node.latency}};
     if (const auto& shards = node.shards; shards.count || shards.seconds > 0 || shards.own_seconds > 0)
         tree["preparing"] = {{"shards", shards.count},
+                             {"rounds", shards.rounds},
                              {"seconds", shards.seconds},
                              {"own_seconds", shards.own_seconds},
                              {"bytes", shards.bytes}};

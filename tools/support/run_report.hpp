@@ -24,10 +24,11 @@ struct PlaceReport {
 
 /// What preparing a node took. Seconds are those of threads.
 struct ShardsReport {
-    std::uint64_t count = 0;  // that all copies did together
-    double seconds = 0;       // for them, for what was done twice, and for tiles of rehearsals
-    double own_seconds = 0;   // of one copy beside them: of the one for which it was most
-    std::uint64_t bytes = 0;  // of results that one copy was given, at most
+    std::uint64_t count = 0;   // that all copies did together
+    std::uint64_t rounds = 0;  // in which these were done, and rehearsals: all copies wait for the end of each
+    double seconds = 0;        // for them, for what was done twice, and for tiles of rehearsals
+    double own_seconds = 0;    // of all copies of a host beside them: of the host for which it was most
+    std::uint64_t bytes = 0;   // of results that one copy was given, at most
 };
 
 /// A node of the graph, all places together. Seconds are those of threads.

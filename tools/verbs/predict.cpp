@@ -64,6 +64,9 @@ void describe_predict(CLI::App& app, PredictOptions& options) {
     app.add_option("--memory", options.hosts.memory, "what a host may keep, for all or NAME=16G")->type_name("SIZE");
     app.add_option("--speed", options.hosts.speeds, "NAME=2: twice as quick as where it was recorded")
         ->type_name("SPEED");
+    app.add_option("--processors", options.hosts.processors,
+                   "NAME=1.5: so many are shared by its places, however many these are (default: one each)")
+        ->type_name("COUNT");
     takes_numbers(app.add_option("--frames", options.picture.frames, "so many such pictures"), "N", 1, 1'000'000);
     takes_numbers(app.add_option("--samples", options.picture.samples, "with so many samples per pixel"), "N", 1,
                   1'000'000);

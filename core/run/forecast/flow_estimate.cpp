@@ -35,7 +35,7 @@ double FlowEstimate::preparing(const HeldByHosts& holds) const {
         double power_of_all = 0, quickest = 0, holders = 0;
         for (std::size_t host = 0; host < hosts_.size(); ++host) {
             if (!holds[host][node]) continue;
-            power_of_all += power(host), quickest = std::max(quickest, hosts_[host].speed), ++holders;
+            power_of_all += power(host), quickest = std::max(quickest, power(host)), ++holders;
         }
         seconds += cost.shard_seconds / power_of_all + cost.own_seconds / quickest +
                    cost.bytes * holders / launcher_.bytes_per_second;

@@ -30,7 +30,7 @@ private:
     double flow(const HeldByHosts& holds);
     void answer(std::size_t node, const HeldByHosts& holds);
     bool is_relieved(std::size_t node, std::size_t host, const HeldByHosts& holds) const;
-    double power(std::size_t host) const { return hosts_[host].places * hosts_[host].speed; }
+    double power(std::size_t host) const { return hosts_[host].power(); }
 
     const RunCosts& costs_;
     const std::vector<ForecastHost>& hosts_;

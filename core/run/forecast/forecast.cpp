@@ -135,10 +135,11 @@ std::vector<BusyPart> busy_parts(const RunCosts& costs, const Plan& plan, const 
 
 // Of all its places together, beside one at speed 1.
 double power_of(const Plan& plan, const std::vector<ForecastHost>& hosts) {
-    std::map<std::string, double> speeds;
-    for (const auto& host : hosts) speeds[host.name] = host.speed;
+    std::map<std::string, std::uint32_t> places;
+    for (const auto& place : plan.places) ++places[place.host];
     double power = 0;
-    for (const auto& place : plan.places) power += speeds[place.host];
+    for (const auto& host : hosts)
+        if (const auto there = places.find(host.name); there != places.end()) power += host.power_of(there->second);
     return power;
 }
 

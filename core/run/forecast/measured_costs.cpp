@@ -29,7 +29,7 @@ MeasuredCosts::MeasuredCosts(const RunCosts& foreseen, const std::vector<Forecas
     const auto work = work_by_node(foreseen);
     const double all = std::accumulate(work.begin(), work.end(), 0.0);
     double power = 0;
-    for (const auto& host : hosts) power += host.places * host.speed;
+    for (const auto& host : hosts) power += host.power();
     if (all > 0) prior_ = usual_blocks(foreseen.picture) * prior_seconds * power / all;
 }
 

@@ -27,7 +27,7 @@ double wait_after(int moves) { return first_wait * std::exp2(std::min(moves, mos
 double seconds_of_ideal(const RunCosts& costs, const std::vector<ForecastHost>& hosts) {
     const auto work = work_by_node(costs);
     double power = 0;
-    for (const auto& host : hosts) power += host.places * host.speed;
+    for (const auto& host : hosts) power += host.power();
     return std::accumulate(work.begin(), work.end(), 0.0) / power;
 }
 
@@ -107,7 +107,7 @@ double Mover::cost_of(Time now, const HeldByHosts& holds) const {
             if (!holds[host][node] || keeps(host, node, now)) continue;
             const auto& preparing = by_.costs.nodes[node].preparing;
             const double rate = std::min(by_.launcher.bytes_per_second, by_.hosts[host].line.bytes_per_second);
-            seconds += preparing.own_seconds / by_.hosts[host].speed + preparing.bytes / rate;
+            seconds += preparing.own_seconds / by_.hosts[host].power() + preparing.bytes / rate;
         }
     return seconds;
 }

@@ -83,7 +83,7 @@ private:
                     best = host;
             if (best == hosts_.size()) continue;
             holds[best] = with(best, node);
-            load[best] += work[node] / (hosts_[best].places * hosts_[best].speed);
+            load[best] += work[node] / hosts_[best].power();
         }
         for (std::size_t host = 0; fill && host < hosts_.size(); ++host)
             for (const auto node : nodes)

@@ -1,6 +1,7 @@
 // Costs of a run, wherever it goes on: taken from one that was recorded.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -13,8 +14,10 @@ namespace lightnet {
 struct PreparingCost {
     std::uint32_t shards = 0;  // pieces that all copies do together
     double shard_seconds = 0;  // all of them
-    double own_seconds = 0;    // of each host that holds it, beside them
+    double own_seconds = 0;    // of each host that holds it, beside them; its places do it together
     double bytes = 0;          // of results, that each host is given
+    std::uint32_t rounds = 0;  // in which the pieces are done: all copies wait for the end of each; 0: one
+    bool rehearses = false;    // looks where the picture looks: all hosts wait for each other, and it grows with that
 };
 
 /// A node, and one question that it is asked; of the renderer: one block of samples of a usual tile.
@@ -71,9 +74,16 @@ struct LineCost {
 struct ForecastHost {
     std::string name;
     std::uint32_t places = 1;
-    double speed = 1;   // of each place, beside those of the recorded run
-    double memory = 0;  // bytes that may be kept for nodes; 0: as much as it takes
+    double speed = 1;       // of each place, beside those of the recorded run
+    double memory = 0;      // bytes that may be kept for nodes; 0: as much as it takes
+    double processors = 0;  // that its places share, perhaps a part of one; 0: one for each
     LineCost line{};
+
+    /// The part of a processor that each of so many places has which are at work.
+    double part_of(std::uint32_t busy) const { return processors > 0 ? std::min(1.0, processors / busy) : 1; }
+    /// Of so many of its places together, beside one at speed 1.
+    double power_of(std::uint32_t busy) const { return busy * speed * part_of(std::max(busy, 1U)); }
+    double power() const { return power_of(places); }
 };
 
 }  // namespace lightnet

@@ -59,6 +59,7 @@ void SimulatedCluster::make_hosts() {
     for (const auto& facts : setting_.hosts) {
         auto& host = hosts_[facts.name];
         host.facts = &facts;
+        host.processors = std::make_unique<SharedProcessors>(events_, facts.processors, facts.speed);
         const bool own = facts.name.empty();
         host.in = host.out = SimulatedLine(own ? 0 : facts.line.bytes_per_second);
     }
@@ -70,8 +71,8 @@ void SimulatedCluster::make_places() {
         auto& host = hosts_[plan.places[place].host];
         if (!host.facts) throw Error("nothing is known of host '" + plan.places[place].host + "'");
         host.places.emplace(plan.places[place].index, place);
-        places_.push_back(std::make_unique<SimulatedPlace>(events_, setting_.costs,
-                                                           kinds_.kinds[kinds_.of_place[place]], host.facts->speed));
+        places_.push_back(std::make_unique<SimulatedPlace>(events_, *host.processors, setting_.costs,
+                                                           kinds_.kinds[kinds_.of_place[place]]));
     }
 }
 

@@ -53,6 +53,7 @@ public:
 private:
     struct Host {
         const ForecastHost* facts = nullptr;
+        std::unique_ptr<SharedProcessors> processors{};
         std::map<std::uint32_t, std::size_t> places{};                      // by index: which of the plan
         std::map<std::size_t, std::unique_ptr<SimulatedReplicas>> desks{};  // by node: deals to its places
         SimulatedLine in{}, out{};

@@ -13,11 +13,12 @@ constexpr double seconds_of_message = 2e-5;
 
 }  // namespace
 
-SimulatedPlace::SimulatedPlace(EventQueue& events, const RunCosts& costs, const PlaceWork& kind, double speed)
+SimulatedPlace::SimulatedPlace(EventQueue& events, SharedProcessors& processors, const RunCosts& costs,
+                               const PlaceWork& kind)
     : events_(events),
+      processors_(processors),
       costs_(costs),
       kind_(kind),
-      speed_(speed),
       inboxes_(costs.nodes.size()),
       by_node_(costs.nodes.size(), 0) {
     for (const auto node : costs.order)
@@ -31,7 +32,7 @@ SimulatedPort* SimulatedPlace::port(std::size_t node) {
 
 SimulatedPort& SimulatedPlace::connect(std::size_t node, std::size_t helpers, Strategy strategy,
                                        SimulatedReplicas::Send send) {
-    const double own = kind_.holds[node] ? kind_.light[node].seconds / speed_ : 0;
+    const double own = kind_.holds[node] ? kind_.light[node].seconds / processors_.speed() : 0;
     const bool asks_on = std::ranges::any_of(costs_.edges, [&](const auto& edge) { return edge.from == node; });
     return *ports_
                 .emplace(node, std::make_unique<SimulatedPort>(
@@ -85,12 +86,13 @@ bool SimulatedPlace::start_own() {
 void SimulatedPlace::start(SimulatedAsk ask, bool counted) {
     busy_ = true;
     const auto& work = kind_.light[ask.node];
-    const double much = ask.questions * ask.times / speed_;
-    const double seconds = much * work.seconds + seconds_of_message / speed_;
-    busy_seconds_ += seconds;
-    for (std::size_t node = 0; node < by_node_.size(); ++node) by_node_[node] += much * work.own[node];
-    events_.at(events_.now() + seconds, [this, ask = std::move(ask), counted] {
+    const double much = ask.questions * ask.times, seconds = much * work.seconds + seconds_of_message;
+    const double begun = events_.now();
+    for (std::size_t node = 0; node < by_node_.size(); ++node)
+        by_node_[node] += much / processors_.speed() * work.own[node];
+    processors_.work(seconds, [this, ask = std::move(ask), counted, begun] {
         busy_ = false;
+        busy_seconds_ += events_.now() - begun;
         computed(ask, counted);
         go_on();
     });
@@ -114,8 +116,8 @@ void SimulatedPlace::finish(const SimulatedAsk& ask, bool counted) {
         inbox.questions -= ask.questions;
         spare_in_use_ -= --inbox.fibers > 0;
     }
-    ask.answered(
-        {static_cast<std::size_t>(std::max(inbox.questions, 0.0)), ask.times * kind_.light[ask.node].seconds / speed_});
+    ask.answered({static_cast<std::size_t>(std::max(inbox.questions, 0.0)),
+                  ask.times * kind_.light[ask.node].seconds / processors_.speed()});
 }
 
 }  // namespace lightnet

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/run/forecast/place_work.hpp"
+#include "core/run/forecast/shared_processors.hpp"
 #include "core/run/forecast/simulated_port.hpp"
 
 namespace lightnet {
@@ -16,8 +17,8 @@ namespace lightnet {
 /// others have left of its own, then tiles. Work that waits for answers of others stays, and lets other work go on.
 class SimulatedPlace {
 public:
-    /// `kind` and `costs` must outlive it. `speed`: beside that of the costs.
-    SimulatedPlace(EventQueue& events, const RunCosts& costs, const PlaceWork& kind, double speed);
+    /// All of these outlive it. `processors`: of its host.
+    SimulatedPlace(EventQueue& events, SharedProcessors& processors, const RunCosts& costs, const PlaceWork& kind);
     SimulatedPlace(const SimulatedPlace&) = delete;
     SimulatedPlace& operator=(const SimulatedPlace&) = delete;
 
@@ -45,9 +46,9 @@ private:
     void flush(bool idle);
 
     EventQueue& events_;
+    SharedProcessors& processors_;
     const RunCosts& costs_;
     const PlaceWork& kind_;
-    double speed_;
     std::vector<std::size_t> by_rank_;
     std::vector<Inbox> inboxes_;
     std::map<std::size_t, std::unique_ptr<SimulatedPort>> ports_;

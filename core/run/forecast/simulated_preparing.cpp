@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -17,7 +16,8 @@
 namespace lightnet {
 namespace {
 
-constexpr double shards_worth_the_way = 0.05;  // seconds of shards that go together, see Preparer
+constexpr double shards_worth_the_way = 0.05;   // seconds of shards that go together, see Preparer
+constexpr double patience_with_the_late = 0.5;  // seconds, with those who are late for a rehearsal
 
 /// The way to a copy that does shards.
 class SimulatedCopy final : public Channel<Step> {
@@ -58,6 +58,7 @@ public:
         }
         for (auto& [host, time] : result_.ready) time = bring(host, 0, costs.host_bytes);
         result_.by_node.assign(costs.nodes.size(), 0);
+        find_those_beside();
     }
 
     SimulatedPreparing all() {
@@ -77,14 +78,14 @@ private:
         if (host.empty() || bytes <= 0) return time;
         return out_.pass(time, bytes) + bytes / facts(host).line.bytes_per_second + way_to(host);
     }
-    std::set<std::string> holders(std::size_t node) const {
-        std::set<std::string> hosts;
-        for (const auto place : plan_.places_of[node]) hosts.insert(plan_.places[place].host);
-        return hosts;
+    std::map<std::string, std::uint32_t> copies_of(std::size_t node) const {
+        std::map<std::string, std::uint32_t> copies;
+        for (const auto place : plan_.places_of[node]) ++copies[plan_.places[place].host];
+        return copies;
     }
     double first_ready(std::size_t node) const {
         double first = EventQueue::never;
-        for (const auto& host : holders(node)) first = std::min(first, result_.ready.at(host));
+        for (const auto& [host, count] : copies_of(node)) first = std::min(first, result_.ready.at(host));
         return first == EventQueue::never ? 0 : first;
     }
 
@@ -92,21 +93,69 @@ private:
         const auto& cost = costs_.nodes[node].preparing;
         if (cost.shards == 0 && cost.own_seconds <= 0) return;
         const double before = first_ready(node);
+        if (cost.rehearses) wait_for_the_late(before);
         const double there = cost.shards > 0 ? do_shards(node, cost) : 0;
-        for (const auto& host : holders(node)) {
+        for (const auto& [host, count] : copies_of(node)) {
             auto& ready = result_.ready.at(host);
-            ready = bring(host, std::max(ready, there), cost.bytes) + cost.own_seconds / facts(host).speed;
+            if (cost.shards == 0) ready = bring(host, ready, cost.bytes);
+            ready = std::max(ready, there) + cost.own_seconds / facts(host).power_of(count);
             result_.work += cost.own_seconds;
         }
         result_.work += cost.shard_seconds;
         result_.by_node[node] = first_ready(node) - before;
     }
 
-    // When the last shard is there.
+    // Nodes of one rank prepare together: one fills the pauses in which others wait for the end of a round.
+    void find_those_beside() {
+        std::vector<std::size_t> rank(costs_.nodes.size(), 0);
+        const auto behind = [&](std::size_t node, std::size_t other) {
+            rank[node] = std::max(rank[node], rank[other] + 1);
+        };
+        for (const auto node : costs_.order) {
+            for (const auto& edge : costs_.edges)
+                if (edge.from == node) behind(node, edge.to);
+            for (const auto& [taker, taken] : costs_.beside)
+                if (taker == node) behind(node, taken);
+        }
+        const auto together = [&](std::size_t node) {
+            return costs_.nodes[node].preparing.rounds > 0 && !costs_.nodes[node].preparing.rehearses;
+        };
+        beside_.assign(costs_.nodes.size(), 1);
+        for (const auto node : costs_.order)
+            beside_[node] =
+                std::max<std::uint32_t>(1, std::uint32_t(std::ranges::count_if(costs_.order, [&](std::size_t other) {
+                                            return together(node) && together(other) && rank[other] == rank[node];
+                                        })));
+    }
+
+    // Who takes part in a rehearsal is known when it begins, see Rehearsals.
+    void wait_for_the_late(double first) {
+        double last = 0;
+        for (const auto& [host, ready] : result_.ready) last = std::max(last, ready);
+        const double begin = std::min(last, first + std::max(patience_with_the_late, (first - all_waited_) / 2));
+        for (auto& [host, ready] : result_.ready) ready = std::max(ready, begin);
+        all_waited_ = begin;
+    }
+
+    // When the last shard is there. What each round brings, all hosts have to know for the next.
     double do_shards(std::size_t node, const PreparingCost& cost) {
+        const auto rounds = std::clamp<std::uint64_t>(cost.rounds / beside_[node], 1, cost.shards);
+        double there = 0;
+        for (std::uint64_t round = 0; round < rounds; ++round) {
+            const auto count = cost.shards * (round + 1) / rounds - cost.shards * round / rounds;
+            there = do_round(node, cost, static_cast<std::uint32_t>(count));
+            for (const auto& [host, copies] : copies_of(node)) {
+                auto& ready = result_.ready.at(host);
+                ready = bring(host, std::max(ready, there), cost.bytes / double(rounds));
+            }
+        }
+        return there;
+    }
+
+    double do_round(std::size_t node, const PreparingCost& cost, std::uint32_t count) {
         EventQueue events;
         ShardDealer::Job job;
-        job.count = cost.shards;
+        job.count = count;
         job.clock = [&events] { return events.now(); };
         ShardDealer dealer(std::move(job));
         std::deque<SimulatedCopy> copies;
@@ -115,6 +164,7 @@ private:
         const auto send = [&](const SimulatedCopy& copy, const Bundle<Step>& bundle) {
             events.at(events.now(), [&, bundle] { work(events, cost, copy, bundle, deal); });
         };
+        for (const auto& [host, count] : copies_of(node)) speed_there_[host] = facts(host).power_of(count) / count;
         for (const auto place : plan_.places_of[node]) {
             const auto& at = plan_.places[place];
             events.at(result_.ready.at(at.host) + way_to(at.host), [&, at] {
@@ -132,7 +182,7 @@ private:
     void work(EventQueue& events, const PreparingCost& cost, const SimulatedCopy& copy, const Bundle<Step>& bundle,
               const std::function<void()>& deal) {
         const auto& host = copy.at().host;
-        const double seconds = cost.shard_seconds / cost.shards / facts(host).speed;
+        const double seconds = cost.shard_seconds / cost.shards / speed_there_.at(host);
         const auto most =
             static_cast<std::uint32_t>(std::min(1e9, 1 + std::floor(shards_worth_the_way / std::max(seconds, 1e-9))));
         const auto done = std::min(bundle.questions->front().count, most);
@@ -153,6 +203,9 @@ private:
     SimulatedLine out_, in_;
     std::map<std::string, const ForecastHost*> facts_;
     std::map<PlaceAt, double> free_;
+    std::vector<std::uint32_t> beside_;          // by node: how many prepare together with it
+    double all_waited_ = 0;                      // last: when
+    std::map<std::string, double> speed_there_;  // of a copy that does shards: all of its host do at the same time
     SimulatedPreparing result_;
 };
 

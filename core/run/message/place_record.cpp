@@ -28,7 +28,8 @@ std::string to_text(const std::vector<PlaceRecord>& records) {
             JsonTree costs = JsonTree::list();
             for (const auto& [step, count] : node.costs.counts) costs.push_back({step, count});
             nodes.push_back({name, node.answered, node.busy_ns, node.bundles, node.replies, node.latency_ns,
-                             node.shards, node.shard_ns, node.prepare_ns, node.prepared, std::move(costs)});
+                             node.shards, node.rounds, node.shard_ns, node.prepare_ns, node.prepared,
+                             std::move(costs)});
         }
         for (const auto& [ends, edge] : record.edges)
             edges.push_back({ends.first, ends.second, edge.asks, edge.questions, edge.called_ns, edge.waited_ns,
@@ -48,11 +49,20 @@ std::vector<PlaceRecord> place_records_from(std::string_view text) {
         auto& record = records.emplace_back(PlaceRecord{
             part[0].text(), part[1].whole<std::uint32_t>(), count(part[2]), count(part[3]), count(part[4]), {}, {}});
         for (const auto& node : part[5].list()) {
-            const auto& one = node.list(11);
+            const auto& one = node.list(12);
             auto& to = record.nodes[one[0].text()];
-            to = {count(one[1]), count(one[2]), count(one[3]), count(one[4]), count(one[5]),
-                  count(one[6]), count(one[7]), count(one[8]), count(one[9]), {}};
-            for (const auto& cost : one[10].list())
+            to = {count(one[1]),
+                  count(one[2]),
+                  count(one[3]),
+                  count(one[4]),
+                  count(one[5]),
+                  count(one[6]),
+                  count(one[7]),
+                  count(one[8]),
+                  count(one[9]),
+                  count(one[10]),
+                  {}};
+            for (const auto& cost : one[11].list())
                 to.costs.counts[cost.list(2)[0].whole<std::uint32_t>()] = count(cost.list(2)[1]);
         }
         for (const auto& edge : part[6].list()) {

@@ -48,6 +48,7 @@ struct NodeRecord {
     std::uint64_t replies = 0;     // that were answered
     std::uint64_t latency_ns = 0;  // from sending to the answer, of all of them together
     std::uint64_t shards = 0;      // that its calls have, for all copies together
+    std::uint64_t rounds = 0;      // its calls, for which all copies waited for each other
     std::uint64_t shard_ns = 0;    // of `busy_ns`: for those that this copy did, and for tiles of rehearsals
     std::uint64_t prepare_ns = 0;  // running in prepare(), beside the shards
     std::uint64_t prepared = 0;    // bytes of results that this copy was given

@@ -274,7 +274,7 @@ PlaceRecord Place::record() const {
         if (inbox_.figures(node).busy_ns) record.nodes[nodes[node].name] = inbox_.figures(node);
     for (const auto& [node, spent] : preparer_.spent()) {
         auto& to = record.nodes[nodes[node].name];
-        to.shards = spent.shards, to.prepare_ns = spent.ns, to.prepared = spent.bytes;
+        to.shards = spent.shards, to.rounds = spent.rounds, to.prepare_ns = spent.ns, to.prepared = spent.bytes;
     }
     for (std::size_t node = 0; node < gauge_.nodes.size(); ++node) {
         const auto& sent = gauge_.nodes[node];

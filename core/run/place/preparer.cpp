@@ -170,7 +170,9 @@ private:
         if (cancelled_) throw Cancelled{};
         at_ = {kind, call_++, count};
         if (is_first_call(call_)) throw Error("it calls its services too often");
-        if (kind != StepReport::Kind::rehearse) preparer_.spent_[index_].shards += count;
+        auto& spent = preparer_.spent_[index_];
+        if (kind != StepReport::Kind::rehearse) spent.shards += count;
+        ++spent.rounds;
         waiting_ = true;
         report();
         preparer_.fibers_.park();

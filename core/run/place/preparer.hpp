@@ -47,6 +47,7 @@ public:
     /// Of one node, so far.
     struct Spent {
         std::uint64_t shards = 0;  // that its calls have, for all copies together
+        std::uint64_t rounds = 0;  // calls for which all copies waited for each other
         std::uint64_t ns = 0;      // running in prepare(), beside the shards
         std::uint64_t bytes = 0;   // of results that it was given
     };
