@@ -69,6 +69,8 @@ inline constexpr std::array rows = {
         "OfThreadsTakeOutOneHostOnly", std::chrono::seconds(180)},
     Row{26, "strangers", "strangers say plan, end, blob, join", "same bytes, nobody learns a thing",
         "OfStrangersOrdersAreObeyedByNobody", std::chrono::seconds(240)},
+    Row{27, "holders", "who has results is lost, slow, lies", "same bytes, from elsewhere, nobody is taken out",
+        "OfThoseWhoHaveResultsChangeNoByte", std::chrono::seconds(240)},
 };
 
 }  // namespace lightnet::test

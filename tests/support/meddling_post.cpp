@@ -1,6 +1,7 @@
 #include "tests/support/meddling_post.hpp"
 
 #include <chrono>
+#include <cstring>
 #include <list>
 #include <map>
 #include <memory>
@@ -8,6 +9,9 @@
 #include <span>
 #include <vector>
 #include <zmq.hpp>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "transport/wire/packet.hpp"
 
@@ -42,6 +46,22 @@ bool is_reply(const Frames& frames) {
     return false;
 }
 
+// True: it was a piece of a result. Those that are cut into parts stay as they are.
+bool change_piece(Frames& frames) {
+    if (frames.size() < 2) return false;
+    auto &header = frames[frames.size() - 2], &body = frames.back();
+    const auto told = packet::peek_header(std::as_bytes(std::span(header)));
+    if (!told || told->type != packet::Type::blob) return false;
+    const auto piece = packet::unpack_piece(std::as_bytes(std::span(body)));
+    if (!piece || piece->bytes.empty()) return false;
+    const auto* const first = reinterpret_cast<const char*>(piece->bytes.data());
+    body[static_cast<std::size_t>(first - body.data())] ^= 1;
+    constexpr std::size_t checksum_at = packet::header_size - sizeof(std::uint64_t);
+    const std::uint64_t sum = XXH3_64bits_withSeed(body.data(), body.size(), XXH3_64bits(header.data(), checksum_at));
+    std::memcpy(header.data() + checksum_at, &sum, sizeof sum);
+    return true;
+}
+
 }  // namespace
 
 struct MeddlingPost::Desk {
@@ -62,7 +82,7 @@ struct MeddlingPost::Desk {
     }
     // True: it is kept back.
     bool keep_back(const Frames& frames, Clock::time_point now) {
-        if (now < next || !is_reply(frames)) return false;
+        if (habits.lies || now < next || !is_reply(frames)) return false;
         next = now + habits.period;
         for (int i = 0; i < 2; ++i)
             late.push_back(
@@ -110,6 +130,7 @@ void MeddlingPost::serve(const std::stop_token& stop, Desk& desk) {
         const auto now = Clock::now();
         for (const auto& [route, line] : desk.lines) {
             for (auto frames = receive(*line); !frames.empty(); frames = receive(*line)) {
+                if (desk.habits.lies && change_piece(frames)) ++meddled_;
                 frames.insert(frames.begin(), route);
                 if (desk.keep_back(frames, now))
                     ++meddled_;
