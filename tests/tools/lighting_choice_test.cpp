@@ -66,12 +66,28 @@ TEST(LightingPromise, IsAGuideWhereSoftLightMakesSomeOfIt) {
     LightingTrial trial = path_trial_of(PathKind::direct, 0.75);
     trial.parts[static_cast<std::size_t>(PathKind::soft)] = 0.25;
     EXPECT_EQ(promise_of(trial, asked, few).covers, Covers::narrow);
+    trial.own_error = 0.003;
+    EXPECT_EQ(promise_of(trial, asked, few).covers, Covers::nothing) << "there is little to take away";
+    trial.own_error = 0.4, trial.parts[static_cast<std::size_t>(PathKind::soft)] = 0.15;
+    EXPECT_EQ(promise_of(trial, asked, few).covers, Covers::narrow) << "there is much";
 }
 
 TEST(LightingPromise, EndsWithManySamples) {
-    EXPECT_EQ(promise_of(path_trial_of(PathKind::soft), {65536, 16384}, few).covers, Covers::narrow)
-        << "records stay as they are";
+    const auto promise = promise_of(path_trial_of(PathKind::soft), {65536, 16384}, few);
+    EXPECT_LT(promise.times, least_promise) << "records stay as they are";
+    EXPECT_FALSE(promise.is_clear);
+    EXPECT_TRUE(promise.else_learns) << "if they are not better than they are taken to be";
+    EXPECT_EQ(promise_of(path_trial_of(PathKind::soft), {65536, 16384}, 1e6).covers, Covers::narrow)
+        << "records of detailed scenes take long, to be tried";
     EXPECT_EQ(promise_of(path_trial(), asked, few).covers, Covers::nothing) << "nobody knows what makes the error";
+}
+
+// They take longer to prepare than records of paths, and leave less.
+TEST(LightingPromise, IsThatMapsCoverSoftLightOfLongRuns) {
+    LightingTrial noisy = path_trial_of(PathKind::soft);
+    noisy.own_error = 0.4;
+    EXPECT_EQ(promise_of(noisy, {65536, 64}, few).covers, Covers::soft);
+    EXPECT_EQ(promise_of(noisy, {65536, 128}, few).covers, Covers::all);
 }
 
 // Records and maps are off by more than paths are then; progressive ones are not.

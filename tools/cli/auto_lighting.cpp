@@ -24,8 +24,8 @@ namespace lightnet {
 namespace {
 
 constexpr double trial_samples = 8;
-constexpr double part_of_work = 0.0075;                         // of the picture's samples: what a trial has
-constexpr double least_pixels = 1024, most_pixels = 160 * 160;  // of a trial
+constexpr double part_of_work = 0.0075;                       // of the picture's samples: what a trial has
+constexpr double least_pixels = 1024, most_pixels = 48 * 48;  // of a trial
 
 /// How a picture is tried: smaller, and with few samples.
 struct TrialSize {

@@ -38,12 +38,15 @@ LightingPromise promise_of(const LightingTrial& first, const AskedPicture& asked
     constexpr double more_direct = 2;   // noise of direct light
     constexpr double of_gloss = 0.5;    // of that of what is seen in gloss: it is looked for anew, in maps or by paths
     constexpr double most_narrow = 4;   // error of a sample: records of paths have too much noise
-    constexpr double least_caustic = 0.35, most_caustic = 0.8, least_learnt = 0.2;
+    constexpr double least_caustic = 0.35, most_caustic = 0.8, most_soft = 0.5;
+    constexpr double many_samples = 6e6;  // maps take longer to prepare, and are off by less
     const auto part = [&](PathKind kind) { return std::max(0.0, first.parts[static_cast<std::size_t>(kind)]); };
     const double of_sample = first.own_error * first.samples, alone = of_sample / asked.samples;
     // Also what glossy metal casts, which records of paths meet as seldom.
     const double caustic = part(PathKind::caustic) + part(PathKind::mirrored) + part(PathKind::glossy);
     const double learnt = part(PathKind::soft) + part(PathKind::glossy) + part(PathKind::shining);
+    // All that a guide can take away is noise: where there is much, a small part of it is worth learning.
+    const double least_learnt = of_sample >= 1 ? 0.1 : of_sample >= 0.1 ? 0.2 : 0.5;
     const double stays = more_direct * part(PathKind::direct) + of_gloss * part(PathKind::shining);
     LightingPromise promise;
     if (std::all_of(first.parts.begin(), first.parts.end(), [](double one) { return one == 0; })) {
@@ -58,15 +61,19 @@ LightingPromise promise_of(const LightingTrial& first, const AskedPicture& asked
     promise.why = fmt::format("paths {} make {:.0f} % of the error", word_of(static_cast<PathKind>(most)),
                               100 * std::min(1.0, first.parts[most]));
     const bool casts_all = part(PathKind::caustic) + part(PathKind::mirrored) >= most_caustic;
+    const bool lasts = asked.pixels * asked.samples >= many_samples;
+    const bool by_maps = caustic >= least_caustic || lasts;
     if (casts_all && is_plain(triangles) && !promise.is_clear && of_sample > 0)
         promise.covers = Covers::caustics;
     else if (promise.times >= least_promise)
-        promise.covers =
-            (caustic >= least_caustic && promise.is_clear && is_plain(triangles)) || of_sample >= most_narrow
-                ? Covers::all
-                : Covers::soft;
+        promise.covers = (by_maps && promise.is_clear && is_plain(triangles)) || of_sample >= most_narrow
+                             ? Covers::all
+                             : Covers::soft;
     else if (learnt >= least_learnt)
         promise.covers = Covers::narrow;
+    // Records of some scenes are off by far less: where it costs little, that is looked at.
+    promise.else_learns = promise.covers == Covers::narrow && part(PathKind::soft) >= most_soft && is_plain(triangles);
+    if (promise.else_learns) promise.covers = Covers::soft;
     return promise;
 }
 

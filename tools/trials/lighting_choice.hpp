@@ -49,6 +49,7 @@ inline constexpr double least_promise = 2;
 struct LightingPromise {
     Covers covers = Covers::nothing;  // which of them to look at; nothing: path tracing is good
     bool is_clear = false;            // it needs no trial: caches take no longer than leaves it true
+    bool else_learns = false;         // where trials show nothing better than path tracing, a guide is to find out
     double times = 0;                 // less error x time than path tracing's, if it prepares in no time
     std::string why;                  // "paths LD+D make 99 % of the error"
     friend bool operator==(const LightingPromise&, const LightingPromise&) = default;

@@ -130,6 +130,7 @@ public:
             if (figures.failed.empty()) look_at(requests_[i], figures);
             trials_.push_back(std::move(figures));
         }
+        if (promise_.else_learns && best_lighting(trials_, course_.asked) == 0) let_learn();
         return trials_;
     }
 
@@ -181,6 +182,12 @@ private:
                 figures.failed = error.what();
             }
         }
+    }
+
+    void let_learn() {
+        for (std::size_t i = 1; i < requests_.size(); ++i)
+            if (requests_[i].excluded.empty() && requests_[i].known.covers == Covers::narrow)
+                trials_[i].foretold = promise_.why, trials_[i].failed.clear();
     }
 
     void run_other(const TrialRequest& request, LightingTrial& figures) {
