@@ -46,7 +46,7 @@ LightingPromise promise_of(const LightingTrial& first, const AskedPicture& asked
     const double caustic = part(PathKind::caustic) + part(PathKind::mirrored) + part(PathKind::glossy);
     const double learnt = part(PathKind::soft) + part(PathKind::glossy) + part(PathKind::shining);
     // All that a guide can take away is noise: where there is much, a small part of it is worth learning.
-    const double least_learnt = of_sample >= 1 ? 0.1 : of_sample >= 0.1 ? 0.2 : 0.5;
+    const double least_learnt = of_sample >= most_narrow ? 0.03 : of_sample >= 0.1 ? 0.2 : 0.5;
     const double stays = more_direct * part(PathKind::direct) + of_gloss * part(PathKind::shining);
     LightingPromise promise;
     if (std::all_of(first.parts.begin(), first.parts.end(), [](double one) { return one == 0; })) {
