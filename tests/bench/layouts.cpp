@@ -146,7 +146,7 @@ int main(int argc, char** argv) {
     return run("layouts", [&] {
         std::uint64_t seed = seed_of_commit();
         bool large = false;
-        for (const std::string word : std::vector<std::string>(argv + 1, argv + argc))
+        for (const std::string& word : std::vector<std::string>(argv + 1, argv + argc))
             if (word == "large")
                 large = true;
             else

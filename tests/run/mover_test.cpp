@@ -93,12 +93,26 @@ TEST(Mover, DoesNotRunAfterWhatGoesRound) {
     EXPECT_LE(world.moves().size(), 7u) << "each takes twice as long as the one before";
 }
 
-TEST(Mover, MovesNothingWhereEverythingFitsEverywhere) {
+TEST(Mover, MovesNothingWhereEverythingIsEverywhere) {
     auto by = three_hosts();
     for (auto& host : by.hosts) host.memory = 2e9;
+    by.holds.assign(3, {true, true, true});
     MovingWorld world(by, slow(0, 5, 1e9, 16));
     world.run(60);
     EXPECT_TRUE(world.moves().empty());
+    EXPECT_FALSE(world.mover().may_move());
+}
+
+// Costs were taken for others at first, so that nodes lie apart though there is room.
+TEST(Mover, BringsEverythingEverywhereWhereThatIsQuicker) {
+    auto by = three_hosts();
+    for (auto& host : by.hosts) host.memory = 2e9;
+    MovingWorld world(by, steady);
+    world.truth = {8, 1, 1};
+    EXPECT_TRUE(world.mover().may_move());
+    world.run(20);
+    ASSERT_EQ(world.moves().size(), 1u);
+    for (const auto& held : world.mover().by().holds) EXPECT_EQ(held, std::vector<bool>(3, true));
     EXPECT_FALSE(world.mover().may_move());
 }
 

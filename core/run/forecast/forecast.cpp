@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/film/film.hpp"
+#include "core/run/forecast/place_work.hpp"
 #include "core/run/forecast/simulated_cluster.hpp"
 #include "core/run/forecast/simulated_preparing.hpp"
 #include "core/run/master/master_renderer.hpp"
@@ -218,6 +219,22 @@ std::string advice_for(const Forecast& forecast) {
             return "more hosts don't help: nobody else can do this";
     }
     return "";
+}
+
+RunCosts shortened(const RunCosts& costs, double most_blocks) {
+    RunCosts fewer = costs;
+    const double blocks = usual_blocks(costs.picture);
+    if (blocks <= most_blocks) return fewer;
+    const auto side = [&](std::uint32_t pixels) {
+        return std::max(costs.picture.tile, std::uint32_t(pixels * std::sqrt(most_blocks / blocks)));
+    };
+    fewer.picture.width = side(costs.picture.width), fewer.picture.height = side(costs.picture.height);
+    const double part = usual_blocks(fewer.picture) / blocks;
+    for (auto& node : fewer.nodes) {
+        auto& preparing = node.preparing;
+        preparing.shard_seconds *= part, preparing.own_seconds *= part, preparing.bytes *= part;
+    }
+    return fewer;
 }
 
 }  // namespace lightnet

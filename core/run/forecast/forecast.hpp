@@ -37,6 +37,10 @@ struct Forecast {
 Forecast forecast(const RunCosts& costs, const Plan& plan, const std::vector<ForecastHost>& hosts,
                   const LineCost& launcher, std::uint32_t rounds);
 
+/// The same with a smaller picture, where it has more blocks of usual tiles than that, and as much less to prepare:
+/// what layouts are compared by, quickly.
+RunCosts shortened(const RunCosts& costs, double most_blocks);
+
 /// What to do about the busiest part, in a sentence.
 std::string advice_for(const Forecast& forecast);
 /// What it is, in words: "the line of host 'b'".

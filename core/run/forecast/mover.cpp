@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/film/film.hpp"
+#include "core/run/forecast/forecast.hpp"
 #include "core/run/forecast/move_search.hpp"
 #include "core/run/forecast/place_work.hpp"
 
@@ -40,6 +42,17 @@ std::vector<OfHost> of_those_there(const std::vector<OfHost>& all, const RunWind
     return there;
 }
 
+// A picture by which layouts compare as by the whole, and which is played quickly: of fewer samples, and smaller.
+RunCosts sample_of(RunCosts costs, const std::vector<ForecastHost>& hosts) {
+    constexpr double blocks_of_place = 60;
+    double blocks = 0;
+    for (const auto& host : hosts) blocks += blocks_of_place * host.places;
+    auto& samples = costs.picture.samples;
+    const double too_many = usual_blocks(costs.picture) / std::max(blocks, 1.0);
+    if (too_many > 1) samples = std::min(samples, std::max(samples_per_block, std::uint32_t(samples / too_many)));
+    return shortened(costs, blocks);
+}
+
 std::string with(const std::string& names, const std::string& name) {
     return names + (names.empty() ? "" : ", ") + (name.empty() ? "here" : name);
 }
@@ -51,12 +64,17 @@ Mover::Mover(LaidOut by)
       measured_(by_.costs, by_.hosts),
       left_(by_.hosts.size(), std::vector<Time>(by_.costs.nodes.size(), long_ago)) {
     const auto all = needed_nodes(by_.costs);
-    for (const auto& host : by_.hosts) everywhere_ = everywhere_ && has_room(by_.costs, host, all);
+    for (const auto& host : by_.hosts) fits_ = fits_ && has_room(by_.costs, host, all);
+}
+
+bool Mover::may_move() const {
+    const auto all = needed_nodes(by_.costs);
+    return !fits_ || std::ranges::any_of(by_.holds, [&](const auto& held) { return held != all; });
 }
 
 std::optional<Move> Mover::look(Time now, const RunWindow& window) {
     measured_.take(window);
-    if (everywhere_ || window.hosts.size() != by_.hosts.size()) return std::nullopt;
+    if (!may_move() || window.hosts.size() != by_.hosts.size()) return std::nullopt;
     if (moves_ > 0 && now >= calm_) calm_ = now + calms_after * wait_after(--moves_);
     auto move = better(now, window);
     const bool at_once = move && move->gain == 1;
@@ -79,9 +97,16 @@ std::optional<Move> Mover::better(Time now, const RunWindow& window) const {
     if (hosts.empty() || window.left <= 0) return std::nullopt;
     MoveSearch search(costs, hosts, by_.launcher, kept);
     const double seconds = search.seconds(before);
-    if (!(1 - seconds_of_ideal(costs, hosts) / seconds >= least_gain)) return std::nullopt;
-    const auto found = search.better_than(before);
-    if (found == before) return std::nullopt;
+    HeldByHosts found;
+    double gain = 0;  // 1: what a node answers is to be had nowhere now
+    if (fits_) {
+        found.assign(hosts.size(), needed_nodes(costs));
+        gain = gain_when_played(costs, hosts, before, found);
+    } else if (1 - seconds_of_ideal(costs, hosts) / seconds >= least_gain) {
+        found = search.better_than(before);
+        if (found != before) gain = 1 - search.seconds(found) / seconds;
+    }
+    if (!(gain >= least_gain)) return std::nullopt;
 
     Move move;
     move.holds = by_.holds;
@@ -89,10 +114,25 @@ std::optional<Move> Mover::better(Time now, const RunWindow& window) const {
         if (window.hosts[host].there) move.holds[host] = found[there++];
     move.cost = cost_of(now, move.holds);
     move.who = words_for(move.holds);
-    move.gain = 1 - search.seconds(found) / seconds;  // 1: what a node answers is to be had nowhere now
+    move.gain = gain;
     move.seconds = move.gain * std::min(window.left * seconds, window.seconds_left);
-    if (!(move.gain >= least_gain && move.cost <= worth_of_gain * move.seconds)) return std::nullopt;
+    if (!(move.cost <= worth_of_gain * move.seconds)) return std::nullopt;
     return move;
+}
+
+// The estimate and the forecast don't agree on what everything everywhere brings where lines are slow.
+// DECISIONS: everything-everywhere-is-played
+double Mover::gain_when_played(const RunCosts& costs, const std::vector<ForecastHost>& hosts, const HeldByHosts& before,
+                               const HeldByHosts& after) const {
+    const auto lost = [&](std::size_t node) {
+        return std::ranges::none_of(before, [&](const auto& held) { return held[node]; });
+    };
+    if (std::ranges::any_of(costs.order, lost)) return 1;
+    const auto sample = sample_of(costs, hosts);
+    const auto seconds = [&](const HeldByHosts& holds) {
+        return forecast(sample, plan_of(holds, hosts), hosts, by_.launcher, 1).render;
+    };
+    return 1 - seconds(after) / seconds(before);
 }
 
 bool Mover::keeps(std::size_t host, std::size_t node, Time now) const {

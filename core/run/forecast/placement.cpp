@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -145,27 +144,10 @@ private:
         return false;
     }
 
-    // The same with fewer tiles, where it has very many.
-    RunCosts shortened() const {
-        RunCosts costs = costs_;
+    NodeLayout choose(const HeldByHosts* everywhere) {
         double places = 0;
         for (const auto& host : hosts_) places += host.places;
-        const double most = 150 * places, blocks = usual_blocks(costs.picture);
-        if (blocks <= most) return costs;
-        const auto side = [&](std::uint32_t pixels) {
-            return std::max(costs.picture.tile, std::uint32_t(pixels * std::sqrt(most / blocks)));
-        };
-        costs.picture.width = side(costs.picture.width), costs.picture.height = side(costs.picture.height);
-        const double part = usual_blocks(costs.picture) / blocks;
-        for (auto& node : costs.nodes) {
-            auto& preparing = node.preparing;
-            preparing.shard_seconds *= part, preparing.own_seconds *= part, preparing.bytes *= part;
-        }
-        return costs;
-    }
-
-    NodeLayout choose(const HeldByHosts* everywhere) {
-        const RunCosts costs = shortened();
+        const RunCosts costs = shortened(costs_, 150 * places);
         const bool plays = hosts_.size() * costs_.order.size() <= few;
         const auto seconds_of = [&](const NodeLayout& layout) {
             if (!plays) return layout.seconds;

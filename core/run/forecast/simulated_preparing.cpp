@@ -164,7 +164,7 @@ private:
         const auto send = [&](const SimulatedCopy& copy, const Bundle<Step>& bundle) {
             events.at(events.now(), [&, bundle] { work(events, cost, copy, bundle, deal); });
         };
-        for (const auto& [host, count] : copies_of(node)) speed_there_[host] = facts(host).power_of(count) / count;
+        for (const auto& [host, held] : copies_of(node)) speed_there_[host] = facts(host).power_of(held) / held;
         for (const auto place : plan_.places_of[node]) {
             const auto& at = plan_.places[place];
             events.at(result_.ready.at(at.host) + way_to(at.host), [&, at] {
