@@ -37,8 +37,8 @@ struct Forecast {
 Forecast forecast(const RunCosts& costs, const Plan& plan, const std::vector<ForecastHost>& hosts,
                   const LineCost& launcher, std::uint32_t rounds);
 
-/// The same with a smaller picture, where it has more blocks of usual tiles than that, and as much less to prepare:
-/// what layouts are compared by, quickly.
+/// Costs of a smaller picture, where theirs has more blocks of usual tiles than that, with as much less to prepare:
+/// layouts compare by them as by the whole, and are played quickly.
 RunCosts shortened(const RunCosts& costs, double most_blocks);
 
 /// What to do about the busiest part, in a sentence.
