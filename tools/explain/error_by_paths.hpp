@@ -22,8 +22,8 @@ struct ErrorByPaths {
 struct Lookers {
     ResultCache* cache = nullptr;  // of what nodes prepare, which each thread wants; null: none
     unsigned threads = 1;          // where the system has so many
-    std::function<void()>
-        pause{};  // is called often, by any of them, and may throw to end the work; none: nothing does
+    /// Is called often, by any of them, and may throw to end the work. None: nothing does.
+    std::function<void()> pause{};
 };
 
 /// Computes some pixels of a picture again, so that the paths of each are known; more of them where it seems to be off.

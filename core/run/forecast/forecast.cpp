@@ -237,4 +237,9 @@ RunCosts shortened(const RunCosts& costs, double most_blocks) {
     return fewer;
 }
 
+bool are_played(const RunCosts& costs, const std::vector<ForecastHost>& hosts) {
+    constexpr std::size_t few = 40;
+    return hosts.size() * costs.order.size() <= few;
+}
+
 }  // namespace lightnet

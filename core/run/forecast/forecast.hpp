@@ -40,6 +40,8 @@ Forecast forecast(const RunCosts& costs, const Plan& plan, const std::vector<For
 /// Costs of a smaller picture, where theirs has more blocks of usual tiles than that, with as much less to prepare:
 /// layouts compare by them as by the whole, and are played quickly.
 RunCosts shortened(const RunCosts& costs, double most_blocks);
+/// Are nodes and hosts so few that layouts are played one by one? Else an estimate has to do.
+bool are_played(const RunCosts& costs, const std::vector<ForecastHost>& hosts);
 
 /// What to do about the busiest part, in a sentence.
 std::string advice_for(const Forecast& forecast);

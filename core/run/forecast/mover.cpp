@@ -20,7 +20,6 @@ constexpr double worth_of_gain = 0.5;  // of what it gains, that a move may cost
 constexpr double first_wait = 2;       // seconds: after the first move twice as long, and so on
 constexpr double calms_after = 4;      // times the last wait, in which nothing has moved
 constexpr int most_doublings = 8;
-constexpr std::size_t few_to_play = 40;   // hosts times nodes, for which layouts are played
 constexpr double memory_comes_back = 10;  // seconds after which a host has let go of what left it
 constexpr double long_ago = -std::numeric_limits<double>::infinity();
 
@@ -96,7 +95,7 @@ std::optional<Move> Mover::better(Time now, const RunWindow& window) const {
         for (std::size_t node = 0; node < costs.nodes.size(); ++node) all_kept[host][node] = keeps(host, node, now);
     const auto kept = of_those_there(all_kept, window);
     if (hosts.empty() || window.left <= 0) return std::nullopt;
-    if (fits_ && hosts.size() * costs.order.size() > few_to_play) return std::nullopt;
+    if (fits_ && !are_played(costs, hosts)) return std::nullopt;
     MoveSearch search(costs, hosts, by_.launcher, kept);
     const double seconds = search.seconds(before);
     HeldByHosts found;

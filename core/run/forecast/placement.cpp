@@ -17,7 +17,6 @@ namespace lightnet {
 namespace {
 
 constexpr std::size_t played = 12;        // layouts, the best by the estimate
-constexpr std::size_t few = 40;           // hosts times nodes, for which layouts are played
 constexpr std::size_t most_steps = 3e7;   // of all estimates: some hundredths of a second
 constexpr std::size_t most_played = 120;  // layouts, when the best is made better still
 constexpr std::size_t kicks = 40;         // with which it looks beyond the best that steps lead to
@@ -148,7 +147,7 @@ private:
         double places = 0;
         for (const auto& host : hosts_) places += host.places;
         const RunCosts costs = shortened(costs_, 150 * places);
-        const bool plays = hosts_.size() * costs_.order.size() <= few;
+        const bool plays = are_played(costs_, hosts_);
         const auto seconds_of = [&](const NodeLayout& layout) {
             if (!plays) return layout.seconds;
             const auto found = forecast(costs, plan_of(layout.holds, hosts_), hosts_, launcher_, 1);
